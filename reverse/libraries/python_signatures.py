@@ -118,7 +118,7 @@ _FUNCTIONS: tuple[tuple[str, str], ...] = (
     ("iterable maxlen:length|none?", "collections.deque"),
     ("maxlen=length|none", "collections.deque"),
     ("function mapping?", "collections.defaultdict"),
-    ("mapping|pairs?", "dict collections.OrderedDict"),
+    ("mapping|pairs? **any", "dict collections.OrderedDict"),
     ("hashables|mapping?", "collections.Counter"),
     ("iterable any?", "next"),
     ("iterable key=function|none reverse=number", "sorted"),
@@ -129,7 +129,7 @@ _FUNCTIONS: tuple[tuple[str, str], ...] = (
     ("function iterable any?", "functools.reduce"),
     ("function *any", "functools.partial"),
     ("function", "functools.cmp_to_key functools.wraps contextlib.contextmanager property"),
-    ("*any sep=text|none end=text|none file=any flush=any", "print"),
+    ("*any sep=text|none end=text|none file=function|none flush=any", "print"),
     (
         "*any",
         """
@@ -197,13 +197,19 @@ _FUNCTIONS: tuple[tuple[str, str], ...] = (
     ),
     ("number function args:iterable? kwargs:mapping?", "threading.Timer"),
     ("any?", "contextlib.nullcontext threading.Condition"),
+    ("whole any *any", "logging.log"),
     ("text", "warnings.warn"),
     ("maxsize:whole|none?", "functools.lru_cache"),
+    (
+        "init=number repr=number eq=number order=number unsafe_hash=number frozen=number "
+        "match_args=number kw_only=number slots=number",
+        "dataclasses.dataclass",
+    ),
     (
         "any *any",
         """
         logging.debug logging.info logging.warning logging.error logging.critical logging.warn
-        logging.exception logging.log pprint.pformat""",
+        logging.exception pprint.pformat""",
     ),
     ("any **any", "dataclasses.replace"),
     ("default=any default_factory=any init=any repr=any compare=any", "dataclasses.field"),

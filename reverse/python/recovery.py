@@ -178,7 +178,7 @@ def read_python(
         list_setup_effects((files or {})[SETUP], findings)
     own = {(o.name, o.py.source.path) for o in classes.owners}
     if read and only is None:
-        list_import_effects(python.sources, _read_paths(python), findings)
+        list_import_effects(python.sources, python.code, _read_paths(python), findings)
         for module in {id(o.module): o.module for o in classes.owners}.values():
             names = {o.name for o in classes.owners if o.module is module}
             list_definition_effects(module.py.source, names, findings)

@@ -117,6 +117,13 @@ def is_literal_text(node: Node) -> bool:
     return node.type in ("string", "concatenated_string")
 
 
+def is_constant_text(node: Node) -> bool:
+    """Whether it is a text in which nothing is evaluated: a documentation, as a statement."""
+    pieces = named(node) if node.type == "concatenated_string" else [node]
+    inner = (c.type for piece in pieces for c in piece.children)
+    return is_literal_text(node) and "interpolation" not in inner
+
+
 def text_in(node: Node) -> str | None:
     """The text that a literal is; None of bytes, formatted ones and names of characters."""
     if node.type == "concatenated_string":

@@ -35,7 +35,7 @@ from rebsync.reverse.libraries.routines import Language
 
 _PARAMETERS = re.compile(r"<[^<>]*>")
 _WAITING_ALONE = frozenset({"get", "join"})
-_UNKNOWN = "what is called is not known"
+UNKNOWN_CALL = "what is called is not known"
 
 
 class OutcomeCalls:
@@ -250,7 +250,7 @@ class OutcomeCalls:
                 # What a function gets was looked at where it was handed over.
                 if not self.notes.is_parameter(value):
                     raises = self.notes.table.of_anything if self._is_cpp else ""
-                    self.notes.problem(node, _UNKNOWN, raises)
+                    self.notes.problem(node, UNKNOWN_CALL, raises)
 
     def _makes(self, node: s.Statement, name: str) -> None:
         if self.notes.is_model(name):

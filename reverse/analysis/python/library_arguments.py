@@ -74,6 +74,10 @@ _NODE = "Node"  # of whatever object: its methods make ends of topics
 _FOR_EACH = frozenset({"builtins.map", "builtins.filter"})
 
 
+# What is given with a star, and with two.
+_SPREAD = {1: "iterable", 2: "mapping"}
+
+
 class LibraryArguments:
     """The calls of one function."""
 
@@ -117,6 +121,10 @@ class LibraryArguments:
         return not self._notes.table.function(name).acts or bool(signatures(name))
 
     def _asks(self, node: s.Call, names: Iterable[str], facts: Facts) -> None:
+        names = [*names]
+        spread = [(a.value, _SPREAD[a.stars]) for a in node.arguments if a.stars] if names else []
+        if not all(self._is_of(value, kind, facts) for value, kind in spread):
+            self._notes.fails(node, _WRONG)
         if any(a.stars for a in node.arguments):
             return
         for name in names:

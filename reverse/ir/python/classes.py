@@ -68,7 +68,9 @@ _ANSWERS: dict[Operator | ImplicitCall, tuple[str, ...]] = {
     ImplicitCall.DESTROY: ("__del__",),
     ImplicitCall.COPY: ("__copy__", "__deepcopy__", "__reduce__", "__getstate__"),
     ImplicitCall.DESCRIBE: ("__get__", "__set__", "__delete__", "__set_name__"),
-    ImplicitCall.DERIVE: ("__init_subclass__", "__mro_entries__", "__prepare__"),
+    ImplicitCall.DERIVE: (
+        *("__init_subclass__", "__mro_entries__", "__prepare__", "_generate_next_value_"),
+    ),
     ImplicitCall.AWAIT: ("__await__",),
 }
 # Decorators that leave a method the one that stands there.

@@ -17,7 +17,7 @@ from rebsync.reverse.ir.python.results import has_truth
 from rebsync.reverse.ir.python.symbols import ScopeKind, imported_name
 from rebsync.reverse.ir.python.targets import assign_all, augment, delete
 from rebsync.reverse.syntax.py_index import module_of
-from rebsync.reverse.syntax.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_tree import field, is_constant_text, named, text_of
 
 _SILENT = frozenset(
     {"pass_statement", "global_statement", "nonlocal_statement", "future_import_statement"}
@@ -73,7 +73,7 @@ def _expression_statement(ctx: Lowering, node: Node) -> None:
 
 
 def _evaluate(ctx: Lowering, node: Node) -> None:
-    if node.type in ("string", "ellipsis", "integer"):
+    if is_constant_text(node) or node.type in ("ellipsis", "integer"):
         return
     value = ctx.value(node)
     last = ctx.out[-1] if ctx.out else None

@@ -36,7 +36,7 @@ from rebsync.reverse.python.bodies.body_match import Way
 from rebsync.reverse.python.bodies.body_raising import raised
 from rebsync.reverse.python.bodies.body_scope import Pending
 from rebsync.reverse.python.bodies.body_statement_reader import BodyStatementReader
-from rebsync.reverse.syntax.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_tree import field, is_constant_text, named, text_of
 from rebsync.statements import UNREADABLE
 
 _NOTHING = frozenset(
@@ -177,7 +177,7 @@ class PyStatements(BodyStatementReader):
                 yield from body_stores.augmented(self, node)
             case "call":
                 yield from self._call(node)
-            case "string" | "concatenated_string":
+            case _ if is_constant_text(node):
                 return
             case _ if is_harmless(self.reading, node, self.frame):
                 return

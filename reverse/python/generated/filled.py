@@ -10,7 +10,7 @@ from rebsync import model as m
 from rebsync.reverse.python.generated import idioms
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.names import Filling
-from rebsync.reverse.python.generated.py_types import call_parts
+from rebsync.reverse.python.generated.py_types import call_parts, expression_in
 from rebsync.reverse.python.generated.roles import PyRoles, PySends
 from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.syntax.py_tree import field, named, text_of
@@ -22,7 +22,8 @@ def fillings_of(roles: PyRoles, sends: Mapping[str, PySends]) -> dict[str, Filli
     """What each publisher of a class sends, by its attribute, from the function that does it."""
     found = {}
     for name, own in roles.sends.items():
-        statements = [named(s)[0] for s in body_of(roles.functions[name]) if named(s)]
+        inner_ones = map(expression_in, body_of(roles.functions[name]))
+        statements = [inner for inner in inner_ones if inner is not None]
         published = [c for s in statements if (c := call_parts(s)) and c[0] == PUBLISH]
         if len(published) != 1 or own.known is None:
             continue
@@ -77,7 +78,7 @@ def filled(
         return None
     name, message, given = made
     for taken, statement in enumerate(after, 1):
-        inner = named(statement)[0] if named(statement) else statement
+        inner = expression_in(statement) or statement
         called, arguments = call_parts(inner) or ("", [])
         left = text_of(field(inner, "left")) if inner.type == "assignment" else ""
         if left.startswith(f"{name}."):

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Literal
 
 from tree_sitter import Node
 
-from rebsync.reverse.python.generated.py_types import call_parts
+from rebsync.reverse.python.generated.py_types import call_parts, expression_in
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
@@ -47,7 +47,7 @@ def says_so(reader: ModelStatementReader, node: Node) -> bool:
 
 
 def _called(node: Node) -> str:
-    inner = named(node)[0] if node.type == "expression_statement" else node
+    inner = expression_in(node) or node
     called, _ = call_parts(inner) or ("", [])
     return called
 

@@ -7,64 +7,32 @@ nothing but to bind names may change the run-time part, the environment, or the 
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
-from typing import TypeAlias, TypeGuard
+from collections.abc import Collection, Iterable, Mapping, Sequence
 
+from tree_sitter import Node
+
+from rebsync.reverse.analysis.outcomes.outcome_calls import UNKNOWN_CALL
+from rebsync.reverse.analysis.problems import Problem
 from rebsync.reverse.build.built_python import files_of_import, imported_by
 from rebsync.reverse.findings import Findings, Unread
-from rebsync.reverse.libraries.effects import of_function
-from rebsync.reverse.libraries.routines import Effect, Language
-from rebsync.reverse.python.generated.slicing.log_words import COMPUTING
+from rebsync.reverse.python.generated.imported_code import IN_SETUP, PLAIN, ImportedCode, LaunchCode
+from rebsync.reverse.python.generated.people_program import PeopleProgram, is_import
+from rebsync.reverse.syntax.py_index import PyCode, Scope
 from rebsync.reverse.syntax.py_module import module_of
-from rebsync.source import Source, Span
+from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
+from rebsync.source import NOWHERE, Source, Span
 
 _WHY = "this runs when the module is imported: what it does is not in the model"
-# What binds names, makes plain values, or only reads; further functions are in the tables.
-_PLAIN = frozenset(
-    {"int", "float", "str", "bool", "range", "dict", "list", "tuple", "set", "frozenset", "print"}
-    | {"property", "staticmethod", "classmethod", "object", "bytes"}
-    | {"logging.getLogger", "re.compile", "os.path.join", "os.getenv"}
-    | {"os.path.dirname", "os.path.abspath", "os.path.expanduser", "os.environ.get"}
-    | {"pathlib.Path", "collections.namedtuple", "collections.defaultdict", "collections.deque"}
-    | {"typing.TypeVar", "typing.NewType", "typing.cast", "typing.overload", "typing.final"}
-    | {"functools.lru_cache", "functools.cache", "functools.partial", "functools.wraps"}
-    | {"functools.total_ordering", "functools.cached_property", "contextlib.contextmanager"}
-    | {
-        "dataclasses.dataclass",
-        "dataclasses.field",
-        "enum.auto",
-        "enum.unique",
-        "abc.abstractmethod",
-    }
-    | {
-        "threading.Lock",
-        "threading.RLock",
-        "threading.Event",
-        "collections.OrderedDict",
-        "collections.Counter",
-    }
-)
-_PLAIN |= COMPUTING
-_IN_SETUP = _PLAIN | {
-    *("setuptools.setup", "distutils.core.setup", "setuptools.find_packages", "glob.glob"),
-    *("catkin_pkg.python_setup.generate_distutils_setup", "os.listdir", "os.walk"),
-    *("setuptools.find_namespace_packages", "setup", "find_packages", "os.path.splitext"),
-    *("open", "readme.read", "f.read", "file.read"),
-}
-# What launch files are made of: they describe what is started, and run before it.
-_LAUNCH = ("launch.", "launch_ros.", "ament_index_python.", "nav2_common.launch.", "xacro.")
-_DESCRIBES = frozenset({"add_action", "add_entity", "append", "extend", "perform"})
-_Function: TypeAlias = "ast.FunctionDef | ast.AsyncFunctionDef"
-_CLASS_HOOKS = frozenset({"__init_subclass__", "__set_name__"})
-_MAKING = frozenset({"__init__", "__new__", "__post_init__", "__call__"})
-_BINDS = (ast.Import, ast.ImportFrom, ast.Pass, ast.Global, ast.Nonlocal)
 
 
 def list_import_effects(
-    sources: Mapping[str, Source], generated: Collection[str], findings: Findings
+    sources: Mapping[str, Source], code: PyCode, generated: Collection[str], findings: Findings
 ) -> None:
-    """Lists what modules do that generated ones import; these are given by their paths."""
-    trees = {path: module_of(sources[path].text) for path in sources}
+    """Lists what modules do that generated ones import; these are given by their paths.
+
+    `sources` have paths within the package, as imports name them.
+    """
+    trees = {path: module_of(source.text) for path, source in sources.items()}
     reached = set[str]()
     waiting = [path for path, source in sources.items() if source.path in generated]
     while waiting:
@@ -74,11 +42,47 @@ def list_import_effects(
         fresh = {p for n in names for p in files_of_import(n, path, sources)} - reached
         reached |= fresh
         waiting += fresh
-    for path in sorted(reached):
-        tree, source = trees[path], sources[path]
-        if tree is None or source.path in generated:
-            continue  # what cannot be parsed is listed, and what is generated is read itself
-        _list(source, _ImportedCode(tree).acting(), findings)
+    # What cannot be parsed is listed, and what is generated is read itself.
+    own = {sources[p]: tree for p in sorted(reached) if (tree := trees[p]) is not None}
+    own = {source: tree for source, tree in own.items() if source.path not in generated}
+    acting = _acting_when_imported(code, generated, [s.path for s in own]) if own else {}
+    for source, tree in own.items():
+        lines = {n.lineno for n in ImportedCode(tree).acting()} | acting[source.path]
+        _list(source, sorted(lines), findings)
+
+
+def _acting_when_imported(
+    code: PyCode, generated: Collection[str], paths: Collection[str]
+) -> dict[str, set[int]]:
+    """The lines of modules, by their paths, at which an import of them may act, by their form."""
+    people = PeopleProgram(code, frozenset(generated))
+    program = people.imported()
+    outcomes = people.outcomes(program)
+    found = {path: set[int]() for path in paths}
+    # What a module lacks is asked of its `__getattr__`, by imports of names as well.
+    run = [n for path in paths for n in (path, f"{path}:__getattr__") if n in program.functions]
+    for problem in (problem for name in run for problem in outcomes.of(name)):
+        of = problem.function.partition(":")[0]
+        if of in found and not is_import(program.function(problem.function), problem.place):
+            source = code.modules[of].py.source
+            around = program.function(problem.function).place
+            place = problem.place if problem.place != NOWHERE else around
+            is_made = _is_made_decorator(problem, source)
+            found[of] |= set() if is_made else {source.position(place.start).line}
+    return found
+
+
+def _is_made_decorator(problem: Problem, source: Source) -> bool:
+    """Whether decorators are called of which all are a library's, perhaps made with constants."""
+    if problem.why != UNKNOWN_CALL:
+        return False
+    code = ImportedCode(module_of(source.text) or ast.Module([], []))
+    line = source.position(problem.place.start).line
+    nodes = (n for n in ast.walk(code.tree) if isinstance(n, ast.ClassDef | ast.FunctionDef))
+    decorators = (n.decorator_list for n in nodes)
+    return any(
+        of and of[0].lineno == line and all(map(code.is_library_decorator, of)) for of in decorators
+    )
 
 
 def list_definition_effects(source: Source, own: Collection[str], findings: Findings) -> None:
@@ -90,25 +94,44 @@ def list_definition_effects(source: Source, own: Collection[str], findings: Find
     if tree is not None:
         package = source.path.split("/")[-2:][0]
         made = {"values.When", f"{package}.values.When"}
-        _list(source, _ImportedCode(tree, _PLAIN | made).defining(own), findings)
+        acting = ImportedCode(tree, PLAIN | made).defining(own)
+        _list(source, [n.lineno for n in acting], findings)
 
 
-def acting_lines(source: Source) -> frozenset[int] | None:
-    """The lines of a module at which statements stand that may do more than to bind names.
+def acting_lines(
+    code: PyCode, module: Scope, own: Collection[str], statements: Sequence[Node]
+) -> frozenset[int] | None:
+    """The lines of a module of classes at which statements stand that may do more than bind names.
 
-    None for a module that Python does not take.
+    `own` are the names of these classes, `statements` those of its top that nothing else reads.
+    None: Python takes no such module.
     """
-    tree = module_of(source.text)
+    tree = module_of(module.py.source.text)
     if tree is None:
         return None
-    return frozenset(node.lineno for node in _ImportedCode(tree).acting())
+    source = module.py.source
+    modules = {path: each.py.source for path, each in code.modules.items()}
+    path = next(path for path, each in modules.items() if each is source)
+    runtime = frozenset(s.path for s in modules.values() if is_runtime_file(s))
+    people = PeopleProgram(code, runtime, classes=frozenset(f"{path}:{name}" for name in own))
+    program = people.imported()
+    outcomes = people.outcomes(program)
+    acting = (
+        node.start_point.row + 1
+        for node in statements
+        for problem in outcomes.of_statements(program.function(path), module.py.span(node))
+        if not problem.raises
+        and not is_import(program.function(problem.function), problem.place)
+        and not _is_made_decorator(problem, source)
+    )
+    return frozenset(acting) | {node.lineno for node in ImportedCode(tree).acting()}
 
 
 def list_setup_effects(source: Source, findings: Findings) -> None:
     """Lists what `setup.py` does besides to say what is installed."""
     tree = module_of(source.text)
     if tree is not None:
-        _list(source, _ImportedCode(tree, _IN_SETUP).acting(), findings)
+        _list(source, [n.lineno for n in ImportedCode(tree, IN_SETUP).acting()], findings)
 
 
 def list_launch_effects(source: Source, findings: Findings) -> None:
@@ -116,264 +139,14 @@ def list_launch_effects(source: Source, findings: Findings) -> None:
     tree = module_of(source.text)
     if tree is None:
         return
-    code = _LaunchCode(tree)
+    code = LaunchCode(tree)
     functions = (n for n in ast.walk(tree) if isinstance(n, ast.FunctionDef))
-    _list(source, code.acting(), findings)
-    for function in functions:
-        _list(source, code.acting_in(function), findings)
+    acting = [*code.acting(), *(n for function in functions for n in code.acting_in(function))]
+    _list(source, [n.lineno for n in acting], findings)
 
 
-def _list(source: Source, nodes: Iterable[ast.stmt], findings: Findings) -> None:
-    for node in nodes:
-        start = source.start_of(node.lineno)
+def _list(source: Source, lines: Iterable[int], findings: Findings) -> None:
+    for number in lines:
+        start = source.start_of(number)
         line = source.text[start:].partition("\n")[0]
         findings.unreadable(source, Unread(Span(start, start + len(line)), _WHY), "")
-
-
-class _ImportedCode:
-    """One module: its statements, what its imports call things, and the classes that it defines."""
-
-    def __init__(self, tree: ast.Module, plain: frozenset[str] = _PLAIN) -> None:
-        self._tree = tree
-        self._plain = plain
-        self._aliases: dict[str, str] = {}
-        self._functions = {n.name: n for n in tree.body if isinstance(n, ast.FunctionDef)}
-        self._asked = set[str]()
-        own = (n.targets for n in tree.body if isinstance(n, ast.Assign) and _is_made(n.value))
-        self._containers = {t.id for targets in own for t in targets if isinstance(t, ast.Name)}
-        self._classes = {n.name: n for n in ast.walk(tree) if isinstance(n, ast.ClassDef)}
-        for node in ast.walk(tree):
-            if isinstance(node, ast.Import):
-                for alias in node.names:
-                    if alias.asname is not None:
-                        self._aliases[alias.asname] = alias.name
-            elif isinstance(node, ast.ImportFrom):
-                names = ((a.asname or a.name, f"{node.module}.{a.name}") for a in node.names)
-                self._aliases.update(names)
-
-    def acting(self) -> Iterator[ast.stmt]:
-        """The statements that may do more than to bind names."""
-        return self._acting(self._tree.body)
-
-    def _acting(self, body: Iterable[ast.stmt]) -> Iterator[ast.stmt]:
-        for node in body:
-            match node:
-                case ast.If(test=test, orelse=others) if self._never_here(test):
-                    yield from self._acting(others)
-                case ast.If(test=test, body=inner, orelse=others):
-                    yield from () if self._is_plain(test) else (node,)
-                    yield from self._acting((*inner, *others))
-                case ast.Try(body=inner, handlers=handlers, orelse=others, finalbody=last):
-                    caught = (s for handler in handlers for s in handler.body)
-                    yield from self._acting((*inner, *caught, *others, *last))
-                case ast.For(target=target, iter=all_, body=inner, orelse=others):
-                    yield from () if _is_name(target) and self._is_plain(all_) else (node,)
-                    yield from self._acting((*inner, *others))
-                case ast.With(items=items, body=inner):
-                    yield from () if all(self._is_plain(i.context_expr) for i in items) else (node,)
-                    yield from self._acting(inner)
-                case ast.ClassDef(body=inner):
-                    if not self._is_plain_class(node):
-                        yield node
-                    yield from self._acting(inner)
-                case _ if not self._only_binds(node):
-                    yield node
-                case _:
-                    pass
-
-    def defining(self, own: Collection[str]) -> Iterator[ast.stmt]:
-        """The definitions at the top that may do more than to bind their names."""
-        for node in self._tree.body:
-            match node:
-                case ast.ClassDef(name=name, body=body) if name in own:
-                    yield from (n for n in body if _is_function(n) and not self._is_plain_head(n))
-                    yield from self._acting(n for n in body if isinstance(n, ast.ClassDef))
-                case ast.ClassDef():
-                    yield from self._acting([node])
-                case _ if _is_function(node) and not self._is_plain_head(node):
-                    yield node
-                case _:
-                    pass
-
-    def _is_plain_head(self, node: _Function) -> bool:
-        """Whether to define a function evaluates nothing that may act but for its decorators."""
-        args = node.args
-        parts = [*args.defaults, *args.kw_defaults]
-        if self._aliases.get("annotations") != "__future__.annotations":
-            every = (*args.posonlyargs, *args.args, *args.kwonlyargs, args.vararg, args.kwarg)
-            parts += [node.returns, *(a.annotation for a in every if a is not None)]
-        return all(self._is_plain(part) for part in parts if part is not None)
-
-    @staticmethod
-    def _never_here(test: ast.expr) -> bool:
-        text = ast.unparse(test)
-        return text in ("TYPE_CHECKING", "typing.TYPE_CHECKING", "__name__ == '__main__'")
-
-    def _only_binds(self, node: ast.stmt) -> bool:
-        match node:
-            case _ if _is_function(node):
-                decorated = all(map(self._is_plain_decorator, node.decorator_list))
-                return decorated and self._is_plain_head(node)
-            case ast.Assign(targets=targets, value=value):
-                return all(map(self._is_own, targets)) and self._is_plain(value)
-            case ast.AnnAssign(target=target, value=value):
-                return _is_name(target) and (value is None or self._is_plain(value))
-            case ast.Expr(value=value):
-                return self._is_plain(value)
-            case _:
-                return isinstance(node, _BINDS)
-
-    def _is_own(self, target: ast.expr) -> bool:
-        """Whether a place is a name of the module, or in a container that it made."""
-        match target:
-            case ast.Subscript(value=ast.Name(id=name), slice=index):
-                return name in self._containers and self._is_plain(index)
-            case _:
-                return _is_name(target)
-
-    def _is_plain_function(self, name: str) -> bool:
-        """Whether a function of the module does nothing but to give a value."""
-        function = self._functions.get(name)
-        if function is None or name in self._asked:
-            return False
-        self._asked.add(name)
-        plain = all(self._only_gives(s) for s in function.body)
-        self._asked.discard(name)
-        return plain and not function.decorator_list
-
-    def _only_gives(self, node: ast.stmt) -> bool:
-        match node:
-            case ast.Return(value=value):
-                return value is None or self._is_plain(value)
-            case ast.If(test=test, body=inner, orelse=others):
-                return self._is_plain(test) and all(map(self._only_gives, (*inner, *others)))
-            case ast.Assign(targets=targets, value=value):
-                return all(map(_is_name, targets)) and self._is_plain(value)
-            case _:
-                return self._only_binds(node) and not isinstance(node, ast.Global | ast.Nonlocal)
-
-    def _is_plain_class(self, node: ast.ClassDef) -> bool:
-        """Whether to define a class runs nothing besides its body."""
-        bases = (*node.bases, *(k.value for k in node.keywords if k.arg == "metaclass"))
-        above = (self._classes.get(ast.unparse(base)) for base in node.bases)
-        hooks = (n.name for c in above if c is not None for n in c.body if _is_function(n))
-        is_plain = all(map(self._is_plain, bases)) and all(
-            k.arg != "metaclass" or ast.unparse(k.value).endswith(("ABCMeta", "EnumMeta"))
-            for k in node.keywords
-        )
-        decorated = all(map(self._is_plain_decorator, node.decorator_list))
-        return is_plain and decorated and _CLASS_HOOKS.isdisjoint(hooks)
-
-    def _is_plain_decorator(self, node: ast.expr) -> bool:
-        if isinstance(node, ast.Call):
-            return self._is_plain(node)
-        name = self._name_of(node)
-        is_property = name.rpartition(".")[2] in ("setter", "getter", "deleter")
-        return name in self._plain or is_property or self._is_plain_function(name)
-
-    def _is_plain(self, node: ast.expr) -> bool:
-        """Whether to evaluate an expression calls nothing that is not known to be harmless."""
-        match node:
-            case ast.Lambda(args=args):
-                return all(map(self._is_plain, args.defaults))
-            case ast.Call(func=function, keywords=keywords):
-                is_changed = any(k.arg == "cmdclass" for k in keywords)
-                if is_changed or not self._is_plain_call(function):
-                    return False
-            case ast.Await() | ast.Yield() | ast.YieldFrom():
-                return False
-            case _:
-                pass
-        inner = (child for child in ast.iter_child_nodes(node) if isinstance(child, ast.expr))
-        return all(map(self._is_plain, inner))
-
-    def _is_plain_call(self, function: ast.expr) -> bool:
-        name = self._name_of(function)
-        made = self._classes.get(name)
-        if made is not None:
-            return self._is_made_plainly(made)
-        if name in self._plain or self._is_plain_function(name):
-            return True
-        if isinstance(function, ast.Attribute) and isinstance(function.value, ast.Constant):
-            return True
-        return any(
-            of_function(Language.PYTHON, full).effect in (Effect.NONE, Effect.READS)
-            for full in (name, f"builtins.{name}")
-        )
-
-    def _is_made_plainly(self, made: ast.ClassDef) -> bool:
-        """Whether to make an object of a class only gives it plain members."""
-        functions = [n for n in made.body if _is_function(n)]
-        making = [n for n in functions if n.name in _MAKING]
-        if not _CLASS_HOOKS.isdisjoint(f.name for f in functions):
-            return False
-        if not making:
-            return True
-        is_plain = not made.bases and all(
-            f.name != "__setattr__" and "setter" not in map(_last_name, f.decorator_list)
-            for f in functions
-        )
-        return is_plain and all(
-            f.name == "__init__" and f.args.args and all(map(self._only_fills(f), f.body))
-            for f in making
-        )
-
-    def _only_fills(self, function: _Function) -> Callable[[ast.stmt], bool]:
-        """Whether a statement of a constructor only puts a plain value into a member."""
-        own = function.args.args[0].arg
-
-        def only_fills(node: ast.stmt) -> bool:
-            match node:
-                case ast.Assign([ast.Attribute(ast.Name(name))], value) if name == own:
-                    return self._is_plain(value)
-                case ast.AnnAssign(ast.Attribute(ast.Name(name)), _, value) if name == own:
-                    return value is None or self._is_plain(value)
-                case _:
-                    return self._only_gives(node)
-
-        return only_fills
-
-    def _name_of(self, node: ast.expr) -> str:
-        """The full name of what is called, by the imports."""
-        first, _, rest = ast.unparse(node).partition(".")
-        whole = self._aliases.get(first, first)
-        return f"{whole}.{rest}" if rest else whole
-
-
-class _LaunchCode(_ImportedCode):
-    """A launch file, whose functions run when it is started."""
-
-    def acting_in(self, function: ast.FunctionDef) -> Iterator[ast.stmt]:
-        """The statements of a function that may do more than to describe what is started."""
-        for node in self._acting(function.body):
-            match node:
-                case ast.Return(value=value) if value is None or self._is_plain(value):
-                    pass
-                case ast.AugAssign(target=ast.Name(), value=value) if self._is_plain(value):
-                    pass
-                case _:
-                    yield node
-
-    def _is_plain_call(self, function: ast.expr) -> bool:
-        name = self._name_of(function)
-        if name.startswith(_LAUNCH) or name.rpartition(".")[2] in _DESCRIBES:
-            return True
-        return super()._is_plain_call(function)
-
-
-def _is_name(target: ast.expr) -> bool:
-    if isinstance(target, ast.Tuple):
-        return all(map(_is_name, target.elts))
-    return isinstance(target, ast.Name)
-
-
-def _last_name(node: ast.expr) -> str:
-    return node.attr if isinstance(node, ast.Attribute) else ""
-
-
-def _is_made(value: ast.expr) -> bool:
-    return isinstance(value, ast.Dict | ast.List | ast.Set)
-
-
-def _is_function(node: ast.stmt) -> TypeGuard[_Function]:
-    return isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)

@@ -61,7 +61,8 @@ class ModuleTop:
         found = [s for s in named(self.module.node) if not self._is_known(s)]
         silent = [n.silent for n in self.names]
         counters = frozenset.intersection(*(s.counters for s in silent)) if silent else frozenset()
-        acting = acting_lines(self.module.py.source) if found else None
+        own = [owner.name for owner in self.owners]
+        acting = acting_lines(self.constants.code, self.module, own, found) if found else None
         for statement in found:
             is_counted = bool(counters.intersection(_set_in(statement)))
             if not (is_counted or self._is_beside(statement, acting)):

@@ -37,7 +37,7 @@ from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_bindings import Binding
 from rebsync.reverse.syntax.py_index import CLASS, Scope, arguments_of, module_named
 from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
-from rebsync.reverse.syntax.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_tree import field, is_constant_text, named, text_of
 
 _INTEGERS = "enum.IntEnum"
 # Classes of which the attributes are what a class below them binds.
@@ -183,9 +183,13 @@ class CodeConstants(PyValues):
                 is_whole = len(given) == len(named(field(call, "arguments")))
                 return is_whole and all(n.type == "integer" for n in given)
             case (Class(owner),):
-                body = [named(s)[0] for s in named(field(owner.node, "body")) if named(s)]
+                line = (each for each in lineage(self.values, owner) if isinstance(each, Scope))
+                bodies = (s for each in line for s in named(field(each.node, "body")))
+                body = [named(s)[0] for s in bodies if named(s)]
                 is_record = _FROZEN.issuperset(owner.decorators) and self._is_plain(owner)
-                return is_record and all(s.type in ("assignment", "string") for s in body)
+                return is_record and all(
+                    s.type == "assignment" or is_constant_text(s) for s in body
+                )
             case _:
                 return False
 

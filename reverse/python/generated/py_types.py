@@ -15,7 +15,7 @@ from rebsync.reserved import NO_PYTHON_CLASSES
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import Scope
-from rebsync.reverse.syntax.py_tree import Py, field, named, parse, text_of
+from rebsync.reverse.syntax.py_tree import Py, field, is_constant_text, named, parse, text_of
 from rebsync.source import Source
 
 _PLAIN = {
@@ -252,10 +252,9 @@ def call_parts(node: Node | None) -> tuple[str, list[Node]] | None:
 
 
 def expression_in(statement: Node) -> Node | None:
-    """The expression or assignment that a statement is."""
-    if statement.type != "expression_statement" or not named(statement):
-        return None
-    return named(statement)[0]
+    """The expression or assignment that a statement is; none where it is a tuple of several."""
+    inner = named(statement) if statement.type == "expression_statement" else []
+    return inner[0] if len(inner) == 1 else None
 
 
 def stored_into(inner: Node | None) -> str:
@@ -301,4 +300,4 @@ def messages_of(owners: list[Scope]) -> Iterator[str]:
 def is_text(statement: Node) -> bool:
     """Whether a statement is a text that stands alone."""
     inner = expression_in(statement)
-    return inner is not None and inner.type in ("string", "concatenated_string")
+    return inner is not None and is_constant_text(inner)

@@ -12,7 +12,7 @@ from rebsync.reverse.python.generated.module_variables import hidden_names, impo
 from rebsync.reverse.python.generated.py_types import type_of
 from rebsync.reverse.python.values.py_worth import Class
 from rebsync.reverse.syntax.py_index import Scope, has_splat
-from rebsync.reverse.syntax.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_tree import field, is_constant_text, named, text_of
 
 _DATACLASS = re.compile(r"([\w.]+)(?:\((?:\s*(?:frozen|order|eq)\s*=\s*(?:True|False)\s*,?)*\))?\Z")
 
@@ -80,7 +80,7 @@ def _fields(scope: Scope) -> tuple[str, ...]:
                 return ()
         elif (name := _declared(statement)) is not None:
             found.append(name)
-        elif not (named(statement) and named(statement)[0].type == "string"):
+        elif not (named(statement) and is_constant_text(named(statement)[0])):
             return ()
     return tuple(found)
 

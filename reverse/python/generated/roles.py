@@ -35,6 +35,7 @@ from rebsync.reverse.python.generated.parameters import (
 )
 from rebsync.reverse.python.generated.py_types import (
     call_parts,
+    expression_in,
     field_read,
     handed_over,
     is_unset,
@@ -57,7 +58,7 @@ from rebsync.reverse.python.generated.slicing.timers import called_back, only_lo
 from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import FUNCTION, PyCode, PyParameter, Scope
-from rebsync.reverse.syntax.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_tree import field, text_of
 
 _RUNTIME = {"_mailbox", "_drive", "_state_pub"}
 # What offers a server, and how many arguments that takes.
@@ -205,7 +206,7 @@ def is_people_own(roles: PyRoles, name: str) -> bool:
 def _wired(roles: PyRoles, function: Scope) -> None:
     roles.constructed = False  # also of `_wire`, which `__init__` calls before
     for statement in body_of(function):
-        inner = named(statement)[0] if statement.type == "expression_statement" else None
+        inner = expression_in(statement)
         if inner is not None and inner.type == "call":
             _called(roles, inner)
             if (told := declared_by(inner)) is not None:
@@ -333,8 +334,7 @@ def _does(
     is_timed = "when" in {p.name for p in passed}
     body = (raising_again(s) or ([s], []) for s in body_of(function))
     for statement in (s for inner, _ in body for s in inner):
-        inner = named(statement)[0] if statement.type == "expression_statement" else None
-        called, arguments = call_parts(inner) or ("", [])
+        called, arguments = call_parts(expression_in(statement)) or ("", [])
         if called == "self._mailbox.receive" and len(arguments) == 5 and function.parameters:
             _received(roles, function, arguments, servers)
         elif called == "self._mailbox.post" and arguments and is_timed:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
+from functools import cached_property
 
 from rebsync.reverse.analysis.origins import FunctionOrigin, Origins
 from rebsync.reverse.analysis.outcomes.outcomes import OutcomeAnalysis
@@ -20,13 +21,10 @@ from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.program import Function, Program
-from rebsync.reverse.ir.python.lowering import python_program
 from rebsync.reverse.ir.walk import walk
-from rebsync.reverse.libraries.outcomes import LibraryOutcomes
-from rebsync.reverse.libraries.routines import Language
+from rebsync.reverse.python.generated.people_program import PeopleProgram
 from rebsync.reverse.syntax.py_index import PyCode
 from rebsync.reverse.syntax.py_module import module_of
-from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
 from rebsync.source import Source, Span
 
 _ASKED = "this runs when it is asked what a sensor saw"
@@ -51,7 +49,7 @@ def list_sensor_effects(
     }
     if all(_is_plain(texts, given, fields.get(message)) for _, given, message in asked):
         return
-    sensors = _SensorModules(code, frozenset(generated), fields)
+    sensors = _SensorModules(code, frozenset(generated), fields.get)
     for path, given, message in asked:
         for source, span, why in sensors.acting(path, given, message):
             start = source.text.rfind("\n", 0, span.start) + 1
@@ -118,52 +116,27 @@ def _is_plain(texts: dict[str, Source], given: ast.expr, fields: Mapping[str, st
     return is_there and bool(functions) and all(isinstance(n, _PLAIN) for n in bodies)
 
 
-class _SensorModules:
-    """The program that a package is; `generated` are the modules of classes and run-time."""
+class _SensorModules(PeopleProgram):
+    """The program of a package, with what its values may be."""
 
-    def __init__(
-        self,
-        code: PyCode,
-        generated: frozenset[str],
-        fields: Mapping[str, Mapping[str, str] | None],
-    ) -> None:
-        self.program = python_program(code)
-        self.code = code
-        self.generated = generated
-        own = [name for name in self.program.functions if not self._is_model(name)]
-        classes = [c for c in self.program.classes.values() if not self._is_model(c.name)]
-        program = Program(own, classes, self.program.function, self.program.modules.items())
-        folders = {part for path in code.modules for part in path.split("/")[:-1]}
-        modules = {path.rpartition("/")[2].removesuffix(".py") for path in code.modules}
-        opaque = frozenset(folders | modules) - {"", "src"}
-        self.table = LibraryOutcomes(Language.PYTHON, opaque, fields=fields.get)
-        self.others = program
-        self.origins = Origins.of_program(program, self.table)
-
-    def _is_model(self, name: str) -> bool:
-        """Whether a module or function is of the generated classes or run-time part."""
-        path, _, function = name.partition(":")
-        if path not in self.code.modules:
-            return False
-        source = self.code.modules[path].py.source
-        if not function or is_runtime_file(source):
-            return source.path in self.generated
-        return source.path in self.generated and ("." in function or function[:1].isupper())
+    @cached_property
+    def origins(self) -> Origins:
+        return Origins.of_program(self.program, self.table)
 
     def analysis(self, names: Collection[str], message: str) -> OutcomeAnalysis:
         """How functions end where these get messages of a type."""
 
         def lowered(name: str) -> Function:
-            function = self.others.function(name)
+            function = self.program.function(name)
             if name not in names or not function.parameters or not message:
                 return function
             first, *others = function.parameters
             typed = (replace(first, type=t.RosMessage(message)), *others)
             return replace(function, parameters=typed)
 
-        given = self.others
+        given = self.program
         program = Program(given.functions, given.classes.values(), lowered, given.modules.items())
-        return OutcomeAnalysis(program, self.table, self._is_model)
+        return self.outcomes(program)
 
     def acting(
         self, path: str, given: ast.expr, message: str
@@ -188,14 +161,14 @@ class _SensorModules:
         """The functions that say what was seen."""
         if isinstance(looked, ast.Lambda):
             start = _place(source, looked).start
-            inner = (n for n in self.program.functions if n.startswith(f"{path}:"))
+            inner = (n for n in self.whole.functions if n.startswith(f"{path}:"))
             lambdas = (n for n in inner if "<lambda" in n)
-            return [n for n in lambdas if self.program.function(n).place.start == start]
+            return [n for n in lambdas if self.whole.function(n).place.start == start]
         if not isinstance(looked, ast.Name):
             return []
         name = looked.id
         values: list[e.Expression] = [e.Global(path, name)]
-        for node in walk(self.program.function(path)):
+        for node in walk(self.whole.function(path)):
             match node:
                 case s.Import(e.Global(_, bound), module, item, True) if bound == name and item:
                     values.append(e.Global(module, item))

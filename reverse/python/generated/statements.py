@@ -41,7 +41,7 @@ from rebsync.reverse.python.generated.py_types import (
 from rebsync.reverse.python.generated.sends import unpacked
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
 from rebsync.reverse.syntax.ancestors import climb
-from rebsync.reverse.syntax.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_tree import field, is_constant_text, named, text_of
 from rebsync.statements import UNREADABLE
 
 _HOISTED = "local "
@@ -116,7 +116,7 @@ class Statements(ModelStatementReader):
             case "function_definition":
                 return inner_functions.declare(self, node)
             case "expression_statement":
-                return self._effect(node)
+                return self._effects(node)
             case "if_statement":
                 return self._if(node)
             case "match_statement":
@@ -158,11 +158,15 @@ class Statements(ModelStatementReader):
 
     # --- effects --------------------------------------------------------------------------------
 
-    def _effect(self, node: Node) -> list[m.Statement]:
-        inner, span = named(node)[0], self.expressions.py.span(node)
+    def _effects(self, node: Node) -> list[m.Statement]:
+        """An expression as a statement; of a tuple that is not used, each in turn."""
+        return [found for inner in named(node) for found in self._effect(node, inner)]
+
+    def _effect(self, node: Node, inner: Node) -> list[m.Statement]:
+        span = self.expressions.py.span(node)
         if inner.type == "ellipsis":
             return [m.Empty(span=span)]
-        if inner.type == "string":
+        if is_constant_text(inner):
             return []
         if inner.type == "assignment":
             return self.assigned(inner)

@@ -21,7 +21,7 @@ from rebsync.reverse.python.values.py_worth import (
     Value,
 )
 from rebsync.reverse.syntax.py_index import LAMBDA, Scope, arguments_of, last_name
-from rebsync.reverse.syntax.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_tree import field, is_constant_text, named, text_of
 
 # Filters that get others: several, or one.
 _FED = ("TimeSynchronizer", "ApproximateTimeSynchronizer", "Cache")
@@ -122,6 +122,6 @@ def body_of(function: Scope) -> list[Node]:
     first = statements[0] if statements else None
     if first is not None and first.type == "expression_statement":
         inner = named(first)
-        if inner and inner[0].type in ("string", "concatenated_string"):
+        if inner and is_constant_text(inner[0]):
             return statements[1:]
     return statements

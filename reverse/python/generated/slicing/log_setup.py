@@ -11,8 +11,9 @@ from rebsync.reverse.python.generated.module_variables import (
     imported_as,
     loggers_of,
 )
+from rebsync.reverse.python.generated.py_types import expression_in
 from rebsync.reverse.syntax.py_index import Scope
-from rebsync.reverse.syntax.py_tree import named, text_of
+from rebsync.reverse.syntax.py_tree import text_of
 
 _LEVEL = re.compile(r"logging\.(?:DEBUG|INFO|WARN|WARNING|ERROR|CRITICAL|FATAL)\Z")
 _HANDLERS = frozenset({"logging.StreamHandler", "logging.NullHandler"})
@@ -20,7 +21,7 @@ _HANDLERS = frozenset({"logging.StreamHandler", "logging.NullHandler"})
 
 def sets_up_logs(module: Scope, statement: Node) -> bool:
     """Whether a statement of a module only says how is logged, and cannot fail."""
-    inner = named(statement)[0] if statement.type == "expression_statement" else statement
+    inner = expression_in(statement) or statement
     called, arguments = call_and_arguments(inner)
     head, _, method = called.partition(".")
     if called == "faulthandler.enable":

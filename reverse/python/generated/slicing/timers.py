@@ -31,7 +31,7 @@ from rebsync.reverse.python.generated.slicing.logs import Looks, only_logs, own_
 from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode, Scope
-from rebsync.reverse.syntax.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_tree import field, is_constant_text, named, text_of
 
 # What makes timers, and how many arguments these give their callbacks.
 _MAKES = {TIMER_OF_ROS_1: 1, TIMER_OF_NODE: 0}
@@ -44,7 +44,7 @@ _FLAGS = frozenset({"oneshot=True", "oneshot=False"})
 def called_back(function: Scope) -> Iterator[str]:
     """The methods that the statements of a function hand to timers, and to the node's end."""
     for statement in body_of(function):
-        inner = named(statement)[0] if statement.type == "expression_statement" else statement
+        inner = expression_in(statement) or statement
         value = inner.child_by_field_name("right") if inner.type == "assignment" else inner
         called, arguments = call_parts(value) or ("", [])
         handed = arguments[1:2] if called in _MAKES else arguments[: called in SHUTDOWN_HOOKS]
@@ -79,10 +79,10 @@ def _logs_by_words(node: Node) -> bool:
         parts = [node, *node.children_by_field_name("alternative")]
         bodies = [field(p, "body" if p.type == "else_clause" else "consequence") for p in parts]
         return all(_logs_by_words(each) for body in bodies for each in named(body))
-    inner = named(node)[0] if node.type == "expression_statement" and named(node) else node
+    inner = expression_in(node) or node
     if inner.type == "assignment":
         return field(inner, "left").type == "identifier"
-    return inner.type == "string" or (inner.type == "call" and _is_log(inner))
+    return is_constant_text(inner) or (inner.type == "call" and _is_log(inner))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
