@@ -6,7 +6,9 @@ two files a program is made of is not known here where both are read, nor which 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
+from itertools import chain
 
 from tree_sitter import Node
 
@@ -15,11 +17,17 @@ from rebsync.reverse.findings import Finding, Grade
 from rebsync.reverse.generated.cpp_meanings import is_runtime_header
 from rebsync.reverse.generated.cpp_names import has_mailbox
 from rebsync.reverse.syntax.ancestors import ancestors
+from rebsync.reverse.syntax.cpp_declarations import CppFunction
 from rebsync.reverse.syntax.cpp_index import Code, CppClass
 from rebsync.reverse.syntax.cpp_tree import part, text_of
 
 _HINT = "take one of them out of the build, or out of the package"
 _REPLACED = "this may stand in place of what a library, or the run-time part, defines"
+# Outermost namespaces of what generated programs are linked with, and those that C++ reserves.
+_OF_LIBRARIES = re.compile(
+    r"_.*|abi|boost|builtin_interfaces|gnu.*|log4cxx|message_filters|rc[lp]\w*|rcutils|rmw\w*|ros\w*|"
+    r"std|tf2?\w*|tracetools|XmlRpc|\w+_(?:interfaces|msgs|srvs)"
+)
 _INNER = "detail"  # the namespace of what the run-time part keeps for itself
 
 
@@ -42,19 +50,26 @@ def defined_again(code: Code, owner: CppClass) -> Iterator[Finding]:
 
 
 def in_place_of_others(code: Code) -> Iterator[Finding]:
-    """What is defined in a namespace that is none of the package's, or beside the run-time part."""
+    """What is defined in a namespace of a library, or beside the run-time part."""
     own = {_namespaces(c.node)[:1] for c in code.classes.values() if has_mailbox(code, c)}
-    functions = [f for found in code.definitions.values() for f in found if f.body is not None]
+    functions: list[CppFunction | CppClass] = [
+        f for found in code.definitions.values() for f in found if f.body is not None
+    ]
     classes = [c for found in code.all_classes.values() for c in found if not c.outer]
     for each in (*functions, *classes):
         spaces = _namespaces(each.node)
         name = each.name if isinstance(each, CppClass) else each.owner or each.name
         of_runtime = name in (RUNTIME_CLASSES | RESERVED) - {"main"} or _INNER in spaces
-        is_foreign = bool(spaces) and spaces[:1] not in own
+        is_foreign = bool(spaces) and spaces[:1] not in own and _is_linked(spaces[0])
         is_shared = "" not in spaces and not is_runtime_header(each.cpp.source.path)
         if is_shared and (is_foreign or (of_runtime and spaces[:1] in own)):
             span = each.cpp.span(each.node)
             yield Finding(Grade.UNREADABLE, each.cpp.source, span, _REPLACED)
+
+
+def _is_linked(space: str) -> bool:
+    """Whether a library that generated programs are linked with has an outermost namespace."""
+    return _OF_LIBRARIES.fullmatch(space) is not None
 
 
 def _namespaces(node: Node) -> tuple[str, ...]:

@@ -19,18 +19,8 @@ from rebsync.toml import read_toml
 
 _MANIFEST, _OF_COLCON = "package.xml", "colcon.pkg"
 _LOOKING = frozenset(
-    {
-        "autopep8",
-        "bandit",
-        "black",
-        "codespell",
-        "coverage",
-        "flake8",
-        "isort",
-        "mypy",
-        "pydocstyle",
-    }
-    | {"pylint", "pyright", "pytest", "ruff", "tox", "vulture", "yapf"}
+    {"autopep8", "bandit", "black", "codespell", "coverage", "flake8", "isort", "mypy"}
+    | {"pydocstyle", "pylint", "pyright", "pytest", "ruff", "tox", "vulture", "yapf"}
 )
 _COMPILED = re.compile(r"(\w+)(?:\.[\w-]+)*\.(?:so|pyd|pyc)")
 _PROSE = frozenset({".md", ".rst", ".txt"})

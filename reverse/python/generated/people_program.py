@@ -36,8 +36,8 @@ class PeopleProgram:
         self.generated = generated
         given = self.whole
         own = [name for name in given.functions if not self.is_model(name)]
-        classes = [c for c in given.classes.values() if not self.is_model(c.name)]
-        self.program = Program(own, classes, given.function, given.modules.items())
+        people = [c for c in given.classes.values() if not self.is_model(c.name)]
+        self.program = Program(own, people, given.function, given.modules.items())
         folders = {part for path in code.modules for part in path.split("/")[:-1]}
         modules = {path.rpartition("/")[2].removesuffix(".py") for path in code.modules}
         opaque = frozenset(folders | modules) - {"", "src"}
