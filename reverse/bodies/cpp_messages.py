@@ -370,7 +370,7 @@ def _values(
     for path in target.fields:
         of = types.get(path)
         zero = zero_of(of) if fresh and of is not None else None
-        match _deep(record, path), zero:
+        match record.fields.get(path) or field_of(record, path), zero:
             case Variable(name), _:
                 _check_sent(reader, node, path, name)
                 found.append(m.Name(name))
@@ -391,7 +391,3 @@ def _check_sent(reader: CppStatementReader, node: Node, path: str, name: str) ->
         why = f'"{path}" may wrap, or be more than the model\'s int can be: others get it wrong'
         unread = Unread(reader.cpp.span(node), why)
         reader.findings.unreadable(reader.cpp.source, unread, reader.within)
-
-
-def _deep(record: Record, path: str) -> object:
-    return record.fields.get(path) or field_of(record, path)

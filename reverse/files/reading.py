@@ -94,7 +94,7 @@ def read(listing: Listing) -> Chosen:
             if name == listing.only:
                 raise data
             if _is_code(name):
-                findings.append(_listed(listing, name, _message(data)))
+                findings.append(_listed(listing, name, data.findings[0].diagnostics[0].message))
             continue
         suffix = suffix_of(name)
         is_python = suffix == SUFFIX or (not suffix and is_script(data))
@@ -217,7 +217,3 @@ codecs.register_error(_LATIN, _latin)
 def _listed(listing: Listing, name: str, why: str) -> Finding:
     path = shown(listing.files.get(name) or str(Path(listing.root) / name))
     return Finding(Grade.UNREADABLE, Source(path, ""), NOWHERE, why)
-
-
-def _message(error: RebsyncError) -> str:
-    return error.findings[0].diagnostics[0].message

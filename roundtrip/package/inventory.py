@@ -78,7 +78,7 @@ def inventory(root: str) -> Inventory:
     return Inventory(
         models,
         tuple(r for r in roots if not any(is_within(os.path.realpath(r), k) for k in known)),
-        tuple(p for p in paths if p.endswith(PROPERTY) and not _has_model(p)),
+        tuple(p for p in paths if p.endswith(PROPERTY) and not Path(p).with_suffix(MODEL).exists()),
     )
 
 
@@ -106,7 +106,3 @@ def _generated(root: str) -> Iterator[GeneratedPackage]:
 def _made_from(model: str, packages: tuple[GeneratedPackage, ...]) -> tuple[GeneratedPackage, ...]:
     real = os.path.realpath(model)
     return tuple(package for package in packages if package.model == real)
-
-
-def _has_model(properties: str) -> bool:
-    return Path(properties).with_suffix(MODEL).exists()

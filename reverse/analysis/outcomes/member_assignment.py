@@ -67,7 +67,7 @@ class MemberAssignment:
             here = [n.target for n in stores if bare(n.value) == call.target is not None]
             owners = (n.object for n in here if isinstance(n, e.Attribute))
             is_own = len(here) == 1 and all(map(_is_this, owners))
-            return is_own and _asks(call) and key_of(here[0], around) == key
+            return is_own and last_name(call) in named(*ASKING) and key_of(here[0], around) == key
         calls = self._origins.of_cpp.calls.get(function, ())
         return bool(calls) and all(
             bool(c.arguments)
@@ -224,10 +224,6 @@ def _in_order(body: s.Body) -> Iterator[s.Statement]:
 
 def _is_this(value: e.Expression) -> bool:
     return isinstance(value, e.Local | e.Captured) and value.name == "this"
-
-
-def _asks(call: s.Call) -> bool:
-    return last_name(call) in named(*ASKING)
 
 
 def _at_once(body: s.Body) -> s.Body:

@@ -212,12 +212,8 @@ def _are_quiet(reading: Reading, name: str, called: Node, ways: Ways, depth: int
     """Whether all methods of a name are quiet, if that of an object is called that is not known."""
     if called.type != "attribute" or any(not isinstance(w, Unresolved) for w in ways):
         return True
-    others = (s for s in reading.code.methods.get(name, ()) if not _stands_in(called, s.node))
+    others = (s for s in reading.code.methods.get(name, ()) if s.node not in ancestors(called))
     return all(is_quiet(reading, Function(scope), depth) for scope in others)
-
-
-def _stands_in(node: Node, outer: Node) -> bool:
-    return outer in ancestors(node)
 
 
 def is_quiet_body(reading: Reading, scope: Scope, depth: int) -> bool:

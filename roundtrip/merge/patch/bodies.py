@@ -277,7 +277,7 @@ class Heads:
     def of(cls, statements: Sequence[m.Statement]) -> Heads:
         """Those among some statements one after the other."""
         loops = [s for s in statements if isinstance(s, m.For)]
-        inside = ((s, f) for s in statements for f in loops if s is not f and _is_in(s, f))
+        inside = ((s, f) for s in statements for f in loops if s is not f and f.span.holds(s.span))
         return cls({id(s): id(f) for s, f in inside})
 
     def __contains__(self, statement: object) -> bool:
@@ -287,10 +287,6 @@ class Heads:
         """Whether with each loop its start goes, and with each start its loop."""
         found = {id(s) for s in gone}
         return all((s in found) == (f in found) for s, f in self.loops.items())
-
-
-def _is_in(statement: m.Statement, loop: m.For) -> bool:
-    return loop.span.holds(statement.span)
 
 
 def _only(block: m.Statement) -> m.Statement:
