@@ -148,7 +148,7 @@ class Stores:
         bodies = (self._program.function(name) for name in self._seen)
         closures = (n for body in bodies for n in walk(body) if isinstance(n, e.Closure))
         return {
-            c.function: frozenset(name for name, value in c.defaults if _is_none(value))
+            c.function: frozenset(name for name, value in c.defaults if is_none(value))
             for c in closures
         }
 
@@ -219,7 +219,8 @@ def key_of(target: e.Expression, function: str) -> Key | None:
             return None
 
 
-def _is_none(value: object) -> bool:
+def is_none(value: object) -> bool:
+    """Whether a value is null or None as the source says it."""
     return isinstance(value, e.Literal) and value.value is None
 
 

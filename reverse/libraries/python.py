@@ -103,6 +103,19 @@ def names_of(*kinds: Kind, result: str | None = None) -> frozenset[str]:
 
 
 @derived
+def methods_of(*kinds: Kind) -> frozenset[str]:
+    """The names of the methods of some kinds."""
+    return frozenset(n for n, r in _methods() if r.kind in kinds)
+
+
+@derived
+def named(*kinds: Kind) -> frozenset[str]:
+    """The last names of the functions and methods of some kinds."""
+    functions = (_last(n) for n, r in _functions() if r.kind in kinds)
+    return methods_of(*kinds).union(functions)
+
+
+@derived
 def node_classes() -> frozenset[str]:
     """The full names of the classes of nodes."""
     return frozenset(n for library in _libraries() for n in library.nodes)
@@ -156,20 +169,13 @@ def client_modules() -> frozenset[str]:
 @derived
 def asking_names() -> frozenset[str]:
     """The last names of all that asks for something."""
-    functions = (_last(n) for n, r in _functions() if r.kind in ASKING)
-    return frozenset(functions).union(n for n, r in _methods() if r.kind in ASKING)
+    return named(*ASKING)
 
 
 @derived
 def messages_of_any_type() -> frozenset[str]:
     """Classes that stand for messages of all types."""
     return frozenset(n for library in _libraries() for n in library.plain)
-
-
-@derived
-def adapting() -> frozenset[str]:
-    """Functions that give a class of messages of the type that they are handed."""
-    return names_of(Kind.OTHER, result="type")
 
 
 # --- parameters and values ----------------------------------------------------------------------
@@ -202,12 +208,6 @@ def declaring() -> frozenset[str]:
 
 
 @derived
-def declaring_together() -> frozenset[str]:
-    """Methods of nodes that declare several parameters."""
-    return frozenset(n for n, r in _methods() if r.kind is Kind.DECLARED)
-
-
-@derived
 def giving_parameters() -> frozenset[str]:
     """Last names of what gives the value of a parameter."""
     found = ((_last(n), r) for n, r in _functions() if r.kind is Kind.PARAMETER)
@@ -218,13 +218,7 @@ def giving_parameters() -> frozenset[str]:
 def silent_parameters() -> frozenset[str]:
     """Last names of what looks at a parameter, or declares some: nothing of a model changes."""
     found = ((_last(n), r) for n, r in (*_functions(), *_methods()) if r.kind is Kind.PARAMETER)
-    return declaring_together().union(n for n, r in found if r.access in _SILENT)
-
-
-@derived
-def holding() -> frozenset[str]:
-    """Methods that give what a parameter holds, or an object of which no more is known."""
-    return frozenset(n for n, r in _methods() if r.kind in (Kind.VALUE, Kind.CLOCK))
+    return methods_of(Kind.DECLARED).union(n for n, r in found if r.access in _SILENT)
 
 
 @derived
@@ -249,32 +243,6 @@ def policies() -> Mapping[str, tuple[str, str]]:
 
 
 @derived
-def publishing() -> frozenset[str]:
-    """Methods that publish a message."""
-    return frozenset(n for n, r in _methods() if r.kind is Kind.PUBLISH)
-
-
-@derived
-def serving() -> frozenset[str]:
-    """Names of what serves the messages that wait."""
-    found = ((_last(n), r) for n, r in (*_functions(), *_methods()))
-    return frozenset(n for n, r in found if r.kind is Kind.SERVE)
-
-
-@derived
-def spinning() -> frozenset[str]:
-    """Names of what serves messages until the node ends."""
-    found = ((_last(n), r) for n, r in (*_functions(), *_methods()))
-    return frozenset(n for n, r in found if r.kind is Kind.SPIN)
-
-
-@derived
-def starting() -> frozenset[str]:
-    """Methods that start or end what runs a node, or run it."""
-    return frozenset(n for n, r in _methods() if r.kind in (Kind.START, Kind.SPIN))
-
-
-@derived
 def acting_methods() -> frozenset[str]:
     """Methods of objects of the client libraries that act, under whatever name they are called."""
     effects = {Effect.SENDS, Effect.TIME, Effect.RUNS, Effect.WAITS, Effect.ENDS, Effect.CHANGES}
@@ -287,7 +255,7 @@ def acting_methods() -> frozenset[str]:
 @derived
 def acting() -> re.Pattern[str]:
     """How names begin of what may act, of which nothing else is known."""
-    words = sorted(publishing() - {"publish"})
+    words = sorted(methods_of(Kind.PUBLISH) - {"publish"})
     return re.compile("|".join((*ACTING_WORDS, *map(re.escape, words))))
 
 

@@ -14,7 +14,7 @@ from rebsync.reverse.analysis.problems import ParameterNeed, ProblemNotes
 from rebsync.reverse.analysis.python.format_strings import numbers_of, styles_in
 from rebsync.reverse.analysis.python.unpacked_values import UnpackedValues
 from rebsync.reverse.analysis.python.value_types import ContainerType, OwnType
-from rebsync.reverse.analysis.stores import CallResult, Stored, key_of
+from rebsync.reverse.analysis.stores import CallResult, Stored, is_none, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import Operator
@@ -261,7 +261,7 @@ class NoneValues:
         stored = self._graph.stores.of(key) if key is not None else []
         is_tested = any(_asks(node, value) for node in walk(function))
         is_set = any(isinstance(n, s.Assign | s.Call) and n.target == value for n in walk(function))
-        return not is_tested and not is_set and any(_is_none(v) for _, v in stored)
+        return not is_tested and not is_set and any(is_none(v) for _, v in stored)
 
     def _returns_nothing(self, name: str, depth: int) -> bool:
         function = self._graph.program.function(name)
@@ -272,7 +272,7 @@ class NoneValues:
         nothing = [
             v for v in some if self._is_nothing((name, v), depth) or self._is_kept(function, v)
         ]
-        if all(map(_is_none, some)) and self._is_overridden(function):
+        if all(map(is_none, some)) and self._is_overridden(function):
             return False
         return bool(nothing) or None in values or falls_through(function.body)
 
@@ -282,10 +282,6 @@ class NoneValues:
         below = self._graph.subclasses.get(owner, set()) - {owner}
         classes = (self._graph.program.classes.get(each) for each in below)
         return any(name in dict(c.methods) for c in classes if c is not None)
-
-
-def _is_none(value: object) -> bool:
-    return isinstance(value, e.Literal) and value.value is None
 
 
 def _asks(node: Node, value: e.Expression) -> bool:

@@ -41,6 +41,7 @@ from rebsync.reverse.analysis.python.value_types import (
     own_type,
     union,
 )
+from rebsync.reverse.analysis.stores import is_none
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import ImplicitCall, Operator
@@ -281,7 +282,7 @@ class TypeErrors:
             )
             wrong |= TEXT in kinds[1] and bool(kinds[0] - {TEXT})
             wrong |= OwnType.BYTES in kinds[1] and bool(kinds[0] - {NUMBER, OwnType.BYTES})
-            wrong |= _is_none(right)
+            wrong |= is_none(right)
             if kinds[1] & {OwnType.SET, OwnType.FROZEN, OwnType.MAPPING}:
                 self._elements.is_key(value, left, facts)
         elif operator in (Operator.EQUAL, Operator.UNEQUAL, Operator.SAME, Operator.NOT_SAME):
@@ -323,7 +324,7 @@ class TypeErrors:
         if isinstance(index, e.Slice):
             self._needs(value, of, SEQUENCES, facts)
             for bound in (index.low, index.high, index.step):
-                if bound is not None and not _is_none(bound):
+                if bound is not None and not is_none(bound):
                     self._needs(value, bound, {NUMBER}, facts)
             return
         if kinds and kinds <= SEQUENCES | {OwnType.QUEUE, OwnType.MODEL_ARRAY}:
@@ -354,7 +355,3 @@ class TypeErrors:
                 self._notes.fails(node, _WRONG)
         else:
             self._needs(node, value, {NUMBER, TEXT}, facts)
-
-
-def _is_none(value: e.Expression) -> bool:
-    return isinstance(value, e.Literal) and value.value is None

@@ -85,7 +85,7 @@ def _spins(reader: BodyStatementReader, node: Node) -> bool:
     known = [reader.reading.external(field(c, "function"), reader.frame) for c in serving]
     serves = {"", *libraries.names_of(Kind.SERVE)}
     return bool(names) and all(
-        n in libraries.serving() and k in serves for n, k in zip(names, known, strict=True)
+        n in libraries.named(Kind.SERVE) and k in serves for n, k in zip(names, known, strict=True)
     )
 
 

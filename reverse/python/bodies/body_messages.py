@@ -13,6 +13,7 @@ from rebsync.reverse.build.message_types import Fields
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.graph import PublisherFact
 from rebsync.reverse.libraries import python as libraries
+from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.models.building import cast, is_calm
 from rebsync.reverse.models.texts import TEXT, any_text
 from rebsync.reverse.python.bodies import body_containers, body_methods
@@ -115,7 +116,7 @@ def published(reader: BodyStatementReader, call: Node) -> Iterator[m.Statement] 
     function = field(call, "function")
     if function.type != "attribute":
         return None
-    if text_of(field(function, "attribute")) not in libraries.publishing():
+    if text_of(field(function, "attribute")) not in libraries.methods_of(Kind.PUBLISH):
         return None
     holder = field(function, "object")
     by_key = holder.type == "subscript"

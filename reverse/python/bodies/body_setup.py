@@ -133,7 +133,7 @@ def _started(reader: BodyStatementReader, call: Node, name: str) -> Iterator[m.S
         return asked(reader, made[0]) if made else iter(())
     if kind is Kind.EXIT and len(plain := arguments_of(call)[0]) <= 1 and not reader.frame.depth:
         return _exit(reader, plain)
-    if kind is Kind.START or (last in libraries.starting() and not name):
+    if kind is Kind.START or (last in libraries.methods_of(Kind.START, Kind.SPIN) and not name):
         return iter(())
     lineage = reader.reading.unit.lineage
     if makes_again(call, reader.frame.scope.self_name):

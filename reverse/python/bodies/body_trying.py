@@ -128,7 +128,7 @@ def _is_sure(reader: BodyStatementReader, call: Node) -> bool:
     made = reader.reading.message_type(call, reader.frame)
     own = reader.reading.function(field(call, "function"), reader.frame)
     holder, _, method = text_of(field(call, "function")).rpartition(".")
-    publishes = bool(holder) and method in libraries.publishing()
+    publishes = bool(holder) and method in libraries.methods_of(Kind.PUBLISH)
     sleeps = libraries.kind_of(name) is Kind.SLEEP and libraries.is_of_client(name)
     return is_log(call) or bool(made) or own is not None or publishes or sleeps
 

@@ -140,7 +140,7 @@ def _is_before(values: PyValues, unit: PyUnit, one: _Spin, other: _Spin) -> bool
     """Whether a call serves only other nodes than a unit's, and does not come to another call."""
     if one.scope is not other.scope or one.call.start_byte >= other.call.start_byte:
         return False
-    spins = last_name(field(one.call, "function")) in libraries.spinning()
+    spins = last_name(field(one.call, "function")) in libraries.named(Kind.SPIN)
     known = (isinstance(w, Instance) and not _is_of(values, unit, w) for w in one.nodes)
     return spins and one.executor is None and bool(one.nodes) and all(known)
 
@@ -154,10 +154,10 @@ def _is_node(values: PyValues, unit: PyUnit) -> bool:
 
 def _spins(values: PyValues, running: _Running) -> Iterator[_Spin]:
     """All calls that spin, and those that are given a function that does."""
-    names = libraries.serving() | libraries.spinning() | {"spin_until_future_complete"}
+    names = libraries.named(Kind.SERVE, Kind.SPIN) | {"spin_until_future_complete"}
     for name in sorted(names):
         for call, scope in values.code.by_callee.get(name, ()):
-            is_once = name in libraries.serving()
+            is_once = name in libraries.named(Kind.SERVE)
             if not running.reaches(scope) or _is_optional(call) or _is_over(values, call, scope):
                 continue
             if not is_once or _goes_round(values, call, scope):
@@ -191,7 +191,7 @@ def _spin(values: PyValues, function: Node, call: Node, scope: Scope) -> Iterato
 def _published_late(values: PyValues, running: _Running) -> Iterator[tuple[Scope, Node]]:
     """The calls behind `spin`, in its function, that publish: the context may be valid still."""
     found: dict[int, tuple[Scope, Node]] = {}
-    for name in sorted(libraries.spinning()):
+    for name in sorted(libraries.named(Kind.SPIN)):
         for call, scope in values.code.by_callee.get(name, ()):
             around = [call, *ancestors(call, lambda n: n.type in SCOPES)]
             late = (n for at in around for n in _behind(at) for n in nodes_in(n))
@@ -213,7 +213,7 @@ def _behind(node: Node) -> Iterator[Node]:
 
 def _senders(values: PyValues) -> frozenset[str]:
     """What publishes, by names: methods of publishers, and functions that lead to these."""
-    found = set(libraries.publishing())
+    found = set(libraries.methods_of(Kind.PUBLISH))
     while True:
         more = {
             s.name for call, s in values.code.calls if last_name(field(call, "function")) in found

@@ -130,11 +130,13 @@ class NodeEffects:
         """Whether a call uses a publisher or a timer."""
         function = field(call, "function")
         name = last_name(function)
-        if name not in libraries.acting_methods() and name not in libraries.publishing():
+        if name not in libraries.acting_methods() and name not in libraries.methods_of(
+            Kind.PUBLISH
+        ):
             return False
         ways = self._values.ways(function, scope)
         is_unknown = not ways or any(isinstance(w, Unresolved) for w in ways)
-        return self.any_acts(ways) or (is_unknown and name in libraries.publishing())
+        return self.any_acts(ways) or (is_unknown and name in libraries.methods_of(Kind.PUBLISH))
 
     def _called(self, call: Node, scope: Scope) -> Iterator[Scope]:
         """The functions that a call may run; of a method of an unknown object those of nodes."""

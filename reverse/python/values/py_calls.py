@@ -223,7 +223,7 @@ class _Facts:
         for way in self.values.ways(node, scope):
             if isinstance(way, External) and (name := interface_of(way.name)) is not None:
                 found.append(name)
-            elif isinstance(way, Made) and way.by in libraries.adapting():
+            elif isinstance(way, Made) and way.by in libraries.names_of(Kind.OTHER, result="type"):
                 for each in arguments_of(way.call)[0][:1]:
                     found += self._types(each, way.scope)
             elif isinstance(way, Unresolved):

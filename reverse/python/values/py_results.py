@@ -249,7 +249,7 @@ def _method(
                 return [values.unknown(why, call, scope)]
             same = name in ("strip", "lstrip", "rstrip", "lower", "upper")
             return [holder] if same else [_what(values, name, call, scope)]
-        case Declared() if name in libraries.holding():
+        case Declared() if name in libraries.methods_of(Kind.VALUE, Kind.CLOCK):
             return [holder]
         case Instance() | Made():
             return _object_method(values, holder, name, call, scope)
@@ -313,7 +313,7 @@ def _object_method(
             return [values.unknown("the name of a parameter", call, scope)]
         given = plain[1] if len(plain) > 1 else keywords.get("value")
         return [Declared(_declared(values, name, named_, given, scope))]
-    if name in libraries.holding():
+    if name in libraries.methods_of(Kind.VALUE, Kind.CLOCK):
         return [holder]
     return [Made(f"{_made_by(holder)}.{name}", call, scope)]
 
@@ -347,7 +347,7 @@ def declared_default(values: PyEvaluator, name: object) -> tuple[Node, Scope] | 
         second = plain[1] if len(plain) > 1 else keywords.get("value")
         if first is not None and second is not None and values.text(first, scope) == name:
             found.append((second, scope))
-    for call, scope in (c for n in libraries.declaring_together() for c in calls.get(n, [])):
+    for call, scope in (c for n in libraries.methods_of(Kind.DECLARED) for c in calls.get(n, [])):
         found += [(v, scope) for n, v in declared_together(values, call, scope) if n == name]
     return found[0] if len(found) == 1 else None
 
