@@ -19,6 +19,7 @@ from rebsync.reserved import KEEP_LAST, OPEN
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.environment.representatives import of_texts, representatives
 from rebsync.reverse.environment.scopes import Scope
+from rebsync.reverse.models.building import declarations
 from rebsync.reverse.models.texts import OTHER, TEXT
 from rebsync.reverse.nodes.node_names import model_word
 from rebsync.reverse.nodes.open_ends import OpenEnd
@@ -176,10 +177,10 @@ class _Environment:
         class_, rebec = unique("Environment", names), unique("environment", names | self.used)
         owners = {r.name: r.type for r in self.model.main.rebecs}
         known = [n for n in owners if any(e.rebec == n for e in ends)]
-        declared = tuple(m.Declaration(owners[n], (m.Declarator(n),)) for n in known)
+        rebecs = declarations((n, owners[n]) for n in known)
         first = tuple(m.ExpressionStatement(m.Call(m.Self(), s.name)) for s in self.servers)
         constructor = m.Constructor(class_, (), m.Block(first))
-        members: tuple[m.ClassMember, ...] = (m.KnownRebecs(declared), constructor, *self.servers)
+        members: tuple[m.ClassMember, ...] = (m.KnownRebecs(rebecs), constructor, *self.servers)
         environment = m.ReactiveClass(class_, len(self.servers) + 1, members)
         more = _more_messages((*ends, *fed))
         classes = tuple(without_open(c, more.get(c.name, {})) for c in self.model.classes)

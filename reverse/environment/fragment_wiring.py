@@ -13,7 +13,7 @@ from rebsync.reverse.bodies.cpp_messages import zero_of
 from rebsync.reverse.environment.closing import parameters_of
 from rebsync.reverse.environment.fragments import PUBLISH, SUBSCRIBE, Fragment, TopicServer
 from rebsync.reverse.environment.observation import Hearer
-from rebsync.reverse.models.building import bare
+from rebsync.reverse.models.building import bare, declarations
 from rebsync.reverse.models.rewriting import rewritten
 from rebsync.reverse.nodes.node_joined import OBSERVER
 from rebsync.reverse.nodes.open_ends import OpenEnd
@@ -89,12 +89,11 @@ def _knowing(
 
 def _with_known(owner: m.ReactiveClass, known: Sequence[tuple[str, m.Type]]) -> m.ReactiveClass:
     """A class with more known rebecs, behind those that it has."""
-    declared = tuple(m.Declaration(type_, (m.Declarator(name),)) for name, type_ in known)
-    if not declared:
+    if not known:
         return owner
     sections = [n for n, x in enumerate(owner.members, 1) if isinstance(x, m.KnownRebecs)]
     at = max(sections, default=0)
-    more = m.KnownRebecs(declared)
+    more = m.KnownRebecs(declarations(known))
     return replace(owner, members=(*owner.members[:at], more, *owner.members[at:]))
 
 

@@ -19,6 +19,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_messages import zero_of
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.graph import PublisherFact
+from rebsync.reverse.models.building import declarations
 from rebsync.reverse.models.rewriting import rewritten
 from rebsync.reverse.models.texts import TEXT
 from rebsync.reverse.nodes.node_joined import OBSERVER, Joined, Observed
@@ -198,9 +199,8 @@ def with_observations(
     if own and not any(isinstance(x, m.Constructor) for x in members):
         first = tuple(_assign(v, zero_of(t)) for v, t in variables.items())
         members.append(m.Constructor(owner.name, (), m.Block(first)))
-    declared = tuple(m.Declaration(t, (m.Declarator(v),)) for v, t in variables.items())
     at = sum(isinstance(x, m.KnownRebecs | m.StateVars) for x in members)
-    section = (m.StateVars(declared),) if declared else ()
+    section = (m.StateVars(declarations(variables.items())),) if variables else ()
     return replace(owner, members=(*members[:at], *section, *members[at:]))
 
 

@@ -1,7 +1,8 @@
-"""Expressions of the model made from others, in parentheses where they need them."""
+"""Expressions of the model made from others, in parentheses where they need them; declarations."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from rebsync import model as m
@@ -183,3 +184,21 @@ def whole_number(expression: m.Expression | None) -> int | None:
             return -value
         case _:
             return None
+
+
+def declarations(variables: Iterable[tuple[str, m.Type]]) -> tuple[m.Declaration, ...]:
+    """Variables, each declared by itself and without a value."""
+    return tuple(m.Declaration(type_, (m.Declarator(name),)) for name, type_ in variables)
+
+
+def mentioned(variables: Mapping[str, m.Type], nodes: Sequence[m.Node]) -> dict[str, m.Type]:
+    """The variables that some body names."""
+    if not variables:
+        return {}
+    names = set()
+    for node in nodes:
+        for inner in m.walk(node):
+            match inner:
+                case m.Name(name) | m.Member(m.Self(), name):
+                    names.add(name)
+    return {n: t for n, t in variables.items() if n in names}

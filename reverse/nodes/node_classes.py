@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from typing import TypeVar
 
@@ -14,6 +14,7 @@ from rebsync.reverse.bodies.effects.cpp_effects import touching
 from rebsync.reverse.bodies.types.cpp_conversions import converted_to
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.graph import TimerFact
+from rebsync.reverse.models.building import declarations, mentioned
 from rebsync.reverse.models.rewriting import STATEMENTS, rewritten
 from rebsync.reverse.nodes.node_bodies import Bodies, repeated, takes_time
 from rebsync.reverse.nodes.node_functions import Functions
@@ -73,12 +74,12 @@ class NodeClass:
         arguments = self._needed(arguments, constructor)
         self._note_unreached()
         methods = _reached([*servers, *methods], constructor, methods)
-        state = _mentioned(variables, [*servers, *methods, constructor])
+        state = mentioned(variables, [*servers, *methods, constructor])
         members: list[m.ClassMember] = []
         if self.known:
-            members.append(m.KnownRebecs(tuple(_declared(m.Type(t), n) for n, t in self.known)))
+            members.append(m.KnownRebecs(declarations((n, m.Type(t)) for n, t in self.known)))
         if state:
-            members.append(m.StateVars(tuple(_declared(t, n) for n, t in state.items())))
+            members.append(m.StateVars(declarations(state.items())))
         members.append(m.Constructor(self.name, arguments, constructor))
         members += [*servers, *methods]
         stale = stale_messages(setup.switches, [*servers, *methods])
@@ -200,7 +201,7 @@ def too_deep(
     lacking = m.Block((m.Empty((m.Annotation(UNREADABLE),)),))
     members: list[m.ClassMember] = []
     if known:
-        members.append(m.KnownRebecs(tuple(_declared(m.Type(t), n) for n, t in known)))
+        members.append(m.KnownRebecs(declarations((n, m.Type(t)) for n, t in known)))
     members.append(m.Constructor(name, (), lacking))
     for server in served:
         taken = tuple(m.Parameter(p.type, p.name) for p in server.parameters)
@@ -246,10 +247,6 @@ def _sends(statement: m.Statement, server: str) -> bool:
             return False
 
 
-def _declared(type_: m.Type, name: str) -> m.Declaration:
-    return m.Declaration(type_, (m.Declarator(name),))
-
-
 def _reached(
     members: Sequence[m.MessageServer | m.Method], constructor: m.Block, methods: list[m.Method]
 ) -> list[m.Method]:
@@ -266,16 +263,3 @@ def _reached(
                         found[method.name] = method
                         bodies.append(method)
     return [method for method in methods if method.name in found]
-
-
-def _mentioned(variables: Mapping[str, m.Type], nodes: Sequence[m.Node]) -> dict[str, m.Type]:
-    """The variables that some body names."""
-    if not variables:
-        return {}
-    names = set()
-    for node in nodes:
-        for inner in m.walk(node):
-            match inner:
-                case m.Name(name) | m.Member(m.Self(), name):
-                    names.add(name)
-    return {n: t for n, t in variables.items() if n in names}

@@ -89,7 +89,7 @@ def _kept_callee(
     if not isinstance(found, ChosenCallee):
         return found
     local = reader.free(f"{name}_then", pattern=f"{name}_then{{}}")
-    made.append(_declared(reader, local, BOOLEAN, found.asked, value))
+    made.append(reader.declaration(f"kept as {local}", local, BOOLEAN, found.asked, value))
     ways = (_kept_callee(reader, name, f, value, made) for f in (found.then, found.otherwise))
     return ChosenCallee(m.Name(local), *ways)
 
@@ -184,21 +184,9 @@ def _times_kept(
         if not is_calm(time) or own.kind(time) != INT:
             raise own.unread(node, "this time is no whole number of the model")
         local = reader.free(f"{name}_{kind}", pattern=f"{name}_{kind}_{{}}", taken=taken)
-        made.append(_declared(reader, local, INT, time, node))
+        made.append(reader.declaration(f"kept as {local}", local, INT, time, node))
         kept[kind] = m.Name(local)
     return made, kept
-
-
-def _declared(
-    reader: ModelStatementReader, local: str, type_: m.Type, value: m.Expression, node: Node
-) -> m.Local:
-    """A local that no name of the code stands for."""
-    key, span = f"kept as {local}", reader.expressions.py.span(node)
-    reader.expressions.types[local] = type_
-    reader.expressions.locals[key] = local
-    reader.implied.add(key)
-    declaration = m.Declaration(type_, (m.Declarator(local, value, span),), span=span)
-    return m.Local(declaration, span=span)
 
 
 def _parameters(function: Node) -> tuple[tuple[str, m.Type | None], ...] | None:
@@ -275,7 +263,7 @@ def _local(
     if type_ is None or type_.dimensions:
         raise own.unread(argument, f'say the type of "{name}"')
     plain = reader.local(reader.free(name, pattern=f"{name}_{{}}", first=2, taken=own.types))
-    return _declared(reader, plain, type_, read, argument)
+    return reader.declaration(f"kept as {plain}", plain, type_, read, argument)
 
 
 def inline_method(

@@ -14,7 +14,6 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.python.generated.record_classes import fields_of, given_to, is_tuple
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
-from rebsync.reverse.python.generated.stored import declaration
 from rebsync.reverse.python.generated.tuples import parts
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.descendants import nodes_in
@@ -89,7 +88,7 @@ def _local(
     type_ = reader.expressions.kind(value)
     if type_ is None:
         raise reader.expressions.unread(node, "say these values one by one")
-    return declaration(reader, name, type_, value, node)
+    return reader.declaration(name, reader.local(name), type_, value, node)
 
 
 def _is_only_read(assignment: Node, name: str, fields: Sequence[str]) -> bool:

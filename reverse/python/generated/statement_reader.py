@@ -64,6 +64,17 @@ class ModelStatementReader(ABC):
         again = _AGAIN.match(name)
         return again[1] if again is not None else name
 
+    def declaration(
+        self, name: str, local: str, type_: m.Type, value: m.Expression | None, node: Node
+    ) -> m.Local:
+        """The local of the model that a name is until the block ends, with its type."""
+        span = self.expressions.py.span(node)
+        self.implied.add(name)
+        self.expressions.locals[name] = local
+        self.expressions.types[local] = type_
+        declared = m.Declaration(type_, (m.Declarator(local, value, span),), span=span)
+        return m.Local(declared, span=span)
+
     def suite(self, node: Node, nodes: list[Node] | None = None) -> m.Block:
         """The body of a loop; only some `nodes` of it, if they are given."""
         outer, self.cases = self.cases, []

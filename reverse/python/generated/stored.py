@@ -153,20 +153,7 @@ def _given(
     type_ = reader.expressions.kind(value)
     if type_ is None:
         raise reader.expressions.unread(node, f'say the type of "{name}" where it is first set')
-    return [declaration(reader, name, type_, value, node)]
-
-
-def declaration(
-    reader: ModelStatementReader, name: str, type_: m.Type, value: m.Expression | None, node: Node
-) -> m.Local:
-    """A local with its type, which the block ends."""
-    span = reader.expressions.py.span(node)
-    plain = reader.local(name)
-    reader.implied.add(name)
-    reader.expressions.locals[name] = plain
-    reader.expressions.types[plain] = type_
-    declared = m.Declaration(type_, (m.Declarator(plain, value, span),), span=span)
-    return m.Local(declared, span=span)
+    return [reader.declaration(name, reader.local(name), type_, value, node)]
 
 
 def all_elements(reader: ModelStatementReader, left: Node, value: Node) -> list[m.Statement] | None:
@@ -245,7 +232,7 @@ def declared_before(
         except Unread:
             continue  # it is listed where it stands
         if type_ is not None:
-            found.append(declaration(reader, name, type_, None, node))
+            found.append(reader.declaration(name, reader.local(name), type_, None, node))
     return found
 
 

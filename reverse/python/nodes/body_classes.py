@@ -16,6 +16,7 @@ from rebsync.reverse.bodies.cpp_timers import stale_messages, without_stale
 from rebsync.reverse.bodies.made_locals import tidied
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.graph import TimerFact
+from rebsync.reverse.models.building import declarations, mentioned
 from rebsync.reverse.models.rewriting import rewritten
 from rebsync.reverse.nodes.node_bodies import repeated, takes_time, without_end
 from rebsync.reverse.nodes.node_loops import left
@@ -191,12 +192,12 @@ class PyClass:
         body, late, more = started_late(tidy(begun, variables), (), names)
         variables |= more
         servers = [*late, *(self._as_server(s, variables) for s in self.served)]
-        state = _mentioned(variables, [*servers, body])
+        state = mentioned(variables, [*servers, body])
         members: list[m.ClassMember] = []
         if known:
-            members.append(m.KnownRebecs(tuple(_declared(m.Type(t), n) for n, t in known)))
+            members.append(m.KnownRebecs(declarations((n, m.Type(t)) for n, t in known)))
         if state:
-            members.append(m.StateVars(tuple(_declared(t, n) for n, t in state.items())))
+            members.append(m.StateVars(declarations(state.items())))
         members.append(m.Constructor(name, (), body))
         unit = self.reading.unit
         first = unit.lineage[0] if unit.lineage else unit.module
@@ -262,13 +263,3 @@ def _is_probe(statement: m.Statement) -> bool:
             return any(a.name == PROBE for a in annotations)
         case _:
             return False
-
-
-def _declared(type_: m.Type, name: str) -> m.Declaration:
-    return m.Declaration(type_, (m.Declarator(name),))
-
-
-def _mentioned(variables: Mapping[str, m.Type], nodes: Sequence[m.Node]) -> dict[str, m.Type]:
-    """The variables that some body names."""
-    names = {n.name for node in nodes for n in m.walk(node) if isinstance(n, m.Name)}
-    return {n: t for n, t in variables.items() if n in names}
