@@ -8,12 +8,14 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync import precedence
+from rebsync.intervals import INT32
 from rebsync.literals import exact_literal_of
 from rebsync.reverse.models.building import bare, binary, negated, tight, whole_number
 from rebsync.reverse.python.expressions import elements
 from rebsync.reverse.python.expressions.operands import OperandReader
 from rebsync.reverse.python.expressions.values import OTHER, REAL, TRUTH, WHOLE, Value
 from rebsync.reverse.syntax.py_tree import field, named, text_of
+from rebsync.static.constants import constant
 
 _LARGEST = 64  # parts of what is repeated where values are compared
 _DRAWN = 64  # numbers, one of which is drawn
@@ -44,7 +46,8 @@ def called(reader: OperandReader, node: Node) -> Value | None:
         case "bool", [given]:
             return Value(reader.condition(given), TRUTH)
         case "int", [given]:
-            return _whole(reader, reader.read(given), node)
+            value = reader.read(given)
+            return _truncated(value) or _whole(reader, value, node)
         case "len", [given] if given.type in ("list", "tuple"):
             return Value(m.IntLiteral(len(elements.certain(reader, given, name))), WHOLE)
         case _:
@@ -84,6 +87,26 @@ def _whole(reader: OperandReader, value: Value, node: Node) -> Value | None:
         one, zero = (Value(m.IntLiteral(number), WHOLE) for number in (1, 0))
         return reader.joined(value.expression, one, zero, node)
     return value if value.kind == WHOLE else None
+
+
+def _truncated(value: Value) -> Value | None:
+    """A number with a point, which is written out, without what is behind it; None for others."""
+    is_written = all(map(_is_written, m.walk(value.expression)))
+    number = constant(value.expression) if is_written else None
+    if not isinstance(number, float) or abs(number) >= INT32.high:
+        return None
+    return Value(exact_literal_of(int(number)), WHOLE)
+
+
+def _is_written(part: m.Expression) -> bool:
+    """Whether Python computes a part of a literal of 64 bits as `constant` does."""
+    match part:
+        case m.IntLiteral(number):
+            return number <= INT32.high
+        case m.Binary():
+            return isinstance(constant(part), float)
+        case _:
+            return isinstance(part, m.FloatLiteral | m.Paren | m.Unary)
 
 
 def _certainly_whole(reader: OperandReader, value: Value, node: Node) -> Value:
