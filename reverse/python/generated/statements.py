@@ -162,7 +162,7 @@ class Statements(ModelStatementReader):
         inner, span = named(node)[0], self.expressions.py.span(node)
         if inner.type == "ellipsis":
             return [m.Empty(span=span)]
-        if inner.type == "string":
+        if inner.type == "string" or callees.is_only_named(self.expressions, inner):
             return []
         if inner.type == "assignment":
             return self.assigned(inner)
