@@ -132,7 +132,7 @@ class Expressions(ModelExpressionReader):
             return compared
         level = _COMPARISON + 1
         left, right = (self._operand(o, level) for o in operands)
-        idioms.assert_alike(self, node, signs[0], (left, right))
+        left, right = idioms.alike(self, node, signs[0], (left, right))
         return m.Binary(signs[0], left, right, self.py.span(node))
 
     def _operand(self, node: Node, least: int) -> m.Expression:
@@ -164,8 +164,7 @@ class Expressions(ModelExpressionReader):
     def compared(
         self, sign: str, left: Value, right: Value, node: Node, number: int
     ) -> m.Expression:
-        sides = left.expression, right.expression
-        idioms.assert_alike(self, node, sign, sides)
+        sides = idioms.alike(self, node, sign, (left.expression, right.expression))
         return binary("!=" if sign == "<>" else sign, *sides, self.span(node))
 
     def operation(self, operator: str, left: Value, right: Value, node: Node) -> Value:

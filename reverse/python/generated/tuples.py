@@ -287,13 +287,13 @@ def compared(
     if not is_even or any(isinstance(each, Node) and may_fail(reader, each) for each in parts):
         raise reader.unread(node, "the model has no such comparison")
     read = [(_read(reader, one), _read(reader, other)) for one, other in pairs]
-    for pair in read:
+    for at, pair in enumerate(read):
         kinds = [reader.kind(side) for side in pair]
         if not all(map(is_calm, pair)):  # a property runs a function
             raise reader.unread(node, "what this does may count for what it is compared with")
         if any(kind is None or is_floating(kind) or kind.dimensions for kind in kinds):
             raise reader.unread(node, "the model has no such comparison")
-        idioms.assert_alike(reader, node, operator, pair)
+        read[at] = idioms.alike(reader, node, operator, pair)
     return idioms.grouped(node, _lexicographical(operator, read))
 
 
