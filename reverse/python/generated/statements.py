@@ -239,6 +239,7 @@ class Statements(ModelStatementReader):
         if name in self.expressions.names.constants:
             raise self.expressions.unread(node, f'"{name}" is a constant elsewhere')
         type_ = idioms.kind_at(self.expressions, value)
+        type_ = type_ or idioms.copied_type(self.expressions, value)
         elsewhere = self.annotated.get(name)
         if elsewhere is not None and is_kind(elsewhere, type_):
             type_ = elsewhere
