@@ -60,8 +60,8 @@ def _looked_up(reader: ModelExpressionReader, node: Node, written: Node, key: No
     return found or NOBODY
 
 
-def is_only_named(reader: ModelExpressionReader, node: Node) -> bool:
-    """Whether a statement names a method of the object, and does not call it: it does nothing."""
+def is_method(reader: ModelExpressionReader, node: Node) -> bool:
+    """Whether something names a method of the object, and does not call it."""
     holder, _, name = text_of(node).rpartition(".")
     names = reader.names
     is_method = name in names.sends or (name in names.functions and name not in names.properties)

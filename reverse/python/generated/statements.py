@@ -19,6 +19,7 @@ from rebsync.reverse.python.generated import (
     endings,
     going_on,
     idioms,
+    lazy,
     loops,
     records,
     stored,
@@ -162,7 +163,7 @@ class Statements(ModelStatementReader):
         inner, span = named(node)[0], self.expressions.py.span(node)
         if inner.type == "ellipsis":
             return [m.Empty(span=span)]
-        if inner.type == "string" or callees.is_only_named(self.expressions, inner):
+        if lazy.does_nothing(self.expressions, inner):
             return []
         if inner.type == "assignment":
             return self.assigned(inner)

@@ -203,7 +203,8 @@ def table(reader: ModelExpressionReader, node: Node) -> Node | None:
     if node.type == "dictionary":
         return node
     kept_ = reader.kept_tables.get(text_of(node))
-    return kept_ if kept_ is not None else _constant(reader, node, "dictionary")
+    is_kept = kept_ is not None and kept_.type == "dictionary"
+    return kept_ if is_kept else _constant(reader, node, "dictionary")
 
 
 def table_asked(reader: ModelExpressionReader, node: Node) -> tuple[Node, Node] | None:
