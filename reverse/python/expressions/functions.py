@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import math
+from collections.abc import Callable, Mapping, Sequence
 
 from tree_sitter import Node
 
@@ -19,13 +20,24 @@ from rebsync.static.constants import constant
 
 _LARGEST = 64  # parts of what is repeated where values are compared
 _DRAWN = 64  # numbers, one of which is drawn
+_TRUNCATING: Mapping[str, Callable[[float], int]] = {"builtins.int": int, "math.trunc": math.trunc}
+_ROUNDING: Mapping[str, Callable[[float], int]] = {
+    "builtins.round": round,
+    "math.floor": math.floor,
+    "math.ceil": math.ceil,
+}
 _TESTS = {"any": "||", "all": "&&"}
 
 
 def called(reader: OperandReader, node: Node) -> Value | None:
     """What a function of Python gives; None for another. Unread: the model cannot say it."""
-    module, _, name = reader.library(field(node, "function")).rpartition(".")
+    library = reader.library(field(node, "function"))
+    module, _, name = library.rpartition(".")
     arguments = elements.arguments_of(node)
+    rounding = {**_TRUNCATING, **(_ROUNDING if reader.rounds_to_whole else {})}
+    if library in rounding and len(arguments) == 1:
+        value = reader.read(arguments[0])
+        return _rounded(value, rounding[library]) or _whole(reader, value, node)
     if module == "random":
         return _drawn(reader, name, arguments, node)
     if module != "builtins":
@@ -45,9 +57,6 @@ def called(reader: OperandReader, node: Node) -> Value | None:
             return _absolute(reader, node, reader.read(given))
         case "bool", [given]:
             return Value(reader.condition(given), TRUTH)
-        case "int", [given]:
-            value = reader.read(given)
-            return _truncated(value) or _whole(reader, value, node)
         case "len", [given] if given.type in ("list", "tuple"):
             return Value(m.IntLiteral(len(elements.certain(reader, given, name))), WHOLE)
         case _:
@@ -89,13 +98,13 @@ def _whole(reader: OperandReader, value: Value, node: Node) -> Value | None:
     return value if value.kind == WHOLE else None
 
 
-def _truncated(value: Value) -> Value | None:
-    """A number with a point, which is written out, without what is behind it; None for others."""
+def _rounded(value: Value, to_whole: Callable[[float], int]) -> Value | None:
+    """A number with a point, which is written out, as a whole number; None for others."""
     is_written = all(map(_is_written, m.walk(value.expression)))
     number = constant(value.expression) if is_written else None
     if not isinstance(number, float) or abs(number) >= INT32.high:
         return None
-    return Value(exact_literal_of(int(number)), WHOLE)
+    return Value(exact_literal_of(to_whole(number)), WHOLE)
 
 
 def _is_written(part: m.Expression) -> bool:
