@@ -16,7 +16,7 @@ from rebsync.reverse.python.expressions import elements
 from rebsync.reverse.python.expressions.operands import OperandReader
 from rebsync.reverse.python.expressions.values import OTHER, REAL, TRUTH, WHOLE, Value
 from rebsync.reverse.syntax.py_tree import field, named, text_of
-from rebsync.static.constants import constant
+from rebsync.static.constants import constant, float_value, single
 
 _LARGEST = 64  # parts of what is repeated where values are compared
 _DRAWN = 64  # numbers, one of which is drawn
@@ -112,10 +112,12 @@ def _is_written(part: m.Expression) -> bool:
     match part:
         case m.IntLiteral(number):
             return number <= INT32.high
+        case m.FloatLiteral(text):  # one of 32 bits may be rounded to another number
+            return text[-1] in "dD" or single(float_value(text)) == float_value(text)
         case m.Binary():
             return isinstance(constant(part), float)
         case _:
-            return isinstance(part, m.FloatLiteral | m.Paren | m.Unary)
+            return isinstance(part, m.Paren | m.Unary)
 
 
 def _certainly_whole(reader: OperandReader, value: Value, node: Node) -> Value:

@@ -193,11 +193,7 @@ class Expressions(ModelExpressionReader):
         if not holder:
             is_own = self.names.constants.binds(name) or self.hides_name(name)
             return "" if is_own else f"builtins.{name}"
-        return (
-            text_of(function)
-            if holder in ("math", "random") and self._is_of_library(holder)
-            else ""
-        )
+        return text_of(function) if holder in _LIBRARIES and self._is_of_library(holder) else ""
 
     def _is_of_library(self, name: str) -> bool:
         """Whether a module of the standard library has its own name here."""

@@ -144,10 +144,11 @@ def kept_table(reader: ModelStatementReader, left: Node, value: Node) -> bool:
 
 def is_shown(expressions: ModelExpressionReader, value: Node) -> bool:
     """Whether a tuple or list has functions of the object, be it in pairs with literals."""
-    parts = [p for each in named(value) for p in (named(each) if each.type == "tuple" else [each])]
+    listed = named(value) if value.type in DISPLAYS else []
+    parts = [p for each in listed for p in (named(each) if each.type == "tuple" else [each])]
     functions = [each for each in parts if is_method(expressions, each)]
     is_same = all(each in functions or idioms.is_literal(expressions, each) for each in parts)
-    return value.type in DISPLAYS and bool(functions) and is_same
+    return bool(functions) and is_same
 
 
 def _is_gone_through(expressions: ModelExpressionReader, use: Node) -> bool:
