@@ -74,7 +74,7 @@ def _is_calm(reader: ModelExpressionReader, name: str, argument: Node) -> bool:
         return True
     with ahead(reader):
         times = times_of(reader, argument) if name == "when" else None
-        found = [reader.expression(argument)] if times is None else times.values()
+        found = [reader.expression(argument)] if times is None else [*times.values()]
     return all(map(is_calm, found))
 
 
