@@ -15,11 +15,10 @@ from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.python.bodies import body_functions, body_timers
 from rebsync.reverse.python.bodies.body_expression_reader import BodyExpressionReader
-from rebsync.reverse.python.bodies.body_floats import as_number
 from rebsync.reverse.python.bodies.body_scope import unknown
 from rebsync.reverse.python.expressions import functions
 from rebsync.reverse.python.expressions.tables import looked_up
-from rebsync.reverse.python.expressions.values import REAL, STRING, TRUTH, WHOLE, Value
+from rebsync.reverse.python.expressions.values import REAL, STRING, TRUTH, WHOLE, Value, as_number
 from rebsync.reverse.syntax.py_index import arguments_of, last_name
 from rebsync.reverse.syntax.py_tree import field, text_of
 from rebsync.reverse.unknowns import Open

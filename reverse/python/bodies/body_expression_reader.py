@@ -108,6 +108,10 @@ class BodyExpressionReader(OperandReader):
     def unread(self, node: Node, why: str) -> Unknown:
         return Unknown(self.span(node), why, "")
 
+    @property
+    def rounds_to_whole(self) -> bool:
+        return self.reading.unit.version == 3
+
     def library(self, function: Node) -> str:
         return self.reading.external(function, self.frame)
 

@@ -28,10 +28,10 @@ from rebsync.reverse.python.bodies import (
 )
 from rebsync.reverse.python.bodies.body_effects import is_harmless, stores_around
 from rebsync.reverse.python.bodies.body_expression_reader import BodyExpressionReader
-from rebsync.reverse.python.bodies.body_floats import as_number, doubled, is_zero
+from rebsync.reverse.python.bodies.body_floats import doubled, is_zero
 from rebsync.reverse.python.bodies.body_scope import Message, Pending, Var, unknown
 from rebsync.reverse.python.expressions.conditions import comparison, connected, signs_of
-from rebsync.reverse.python.expressions.values import REAL, STRING, TRUTH, WHOLE, Value
+from rebsync.reverse.python.expressions.values import REAL, STRING, TRUTH, WHOLE, Value, as_number
 from rebsync.reverse.syntax.py_tree import (
     field,
     named,

@@ -1,10 +1,9 @@
-"""Floats: Python's have 64 bits, the literals of the model 32. Truth values that are numbers."""
+"""Floats: Python's have 64 bits, the literals of the model 32."""
 
 from __future__ import annotations
 
 from rebsync import model as m
-from rebsync.reverse.models.building import bare, binary, cast, chosen
-from rebsync.reverse.python.expressions.values import TRUTH, WHOLE, Value
+from rebsync.reverse.models.building import bare, binary, cast
 from rebsync.source import Span
 from rebsync.static.types import DOUBLE
 
@@ -37,14 +36,3 @@ def is_zero(literal: m.FloatLiteral | m.IntLiteral) -> bool:
         if isinstance(literal, m.IntLiteral)
         else not float(literal.text.rstrip("fFdD"))
     )
-
-
-def as_number(value: Value) -> Value:
-    """A truth value as Python computes with it, 1 or 0; other values as they are."""
-    if value.kind != TRUTH:
-        return value
-    match bare(value.expression):
-        case m.BoolLiteral(truth):
-            return Value(m.IntLiteral(int(truth)), WHOLE)
-        case expression:
-            return Value(chosen(expression, m.IntLiteral(1), m.IntLiteral(0)), WHOLE)

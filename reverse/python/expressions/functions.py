@@ -2,28 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import math
+from collections.abc import Callable, Mapping, Sequence
 
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync import precedence
+from rebsync.intervals import INT32
 from rebsync.literals import exact_literal_of
 from rebsync.reverse.models.building import bare, binary, negated, tight, whole_number
 from rebsync.reverse.python.expressions import elements
 from rebsync.reverse.python.expressions.operands import OperandReader
 from rebsync.reverse.python.expressions.values import OTHER, REAL, TRUTH, WHOLE, Value
 from rebsync.reverse.syntax.py_tree import field, named, text_of
+from rebsync.static.constants import constant, float_value, single
 
 _LARGEST = 64  # parts of what is repeated where values are compared
 _DRAWN = 64  # numbers, one of which is drawn
+_TRUNCATING: Mapping[str, Callable[[float], int]] = {"builtins.int": int, "math.trunc": math.trunc}
+_ROUNDING: Mapping[str, Callable[[float], int]] = {
+    "builtins.round": round,
+    "math.floor": math.floor,
+    "math.ceil": math.ceil,
+}
 _TESTS = {"any": "||", "all": "&&"}
 
 
 def called(reader: OperandReader, node: Node) -> Value | None:
     """What a function of Python gives; None for another. Unread: the model cannot say it."""
-    module, _, name = reader.library(field(node, "function")).rpartition(".")
+    library = reader.library(field(node, "function"))
+    module, _, name = library.rpartition(".")
     arguments = elements.arguments_of(node)
+    rounding = {**_TRUNCATING, **(_ROUNDING if reader.rounds_to_whole else {})}
+    if library in rounding and len(arguments) == 1:
+        value = reader.read(arguments[0])
+        return _rounded(value, rounding[library]) or _whole(reader, value, node)
     if module == "random":
         return _drawn(reader, name, arguments, node)
     if module != "builtins":
@@ -43,8 +57,6 @@ def called(reader: OperandReader, node: Node) -> Value | None:
             return _absolute(reader, node, reader.read(given))
         case "bool", [given]:
             return Value(reader.condition(given), TRUTH)
-        case "int", [given]:
-            return _whole(reader, reader.read(given), node)
         case "len", [given] if given.type in ("list", "tuple"):
             return Value(m.IntLiteral(len(elements.certain(reader, given, name))), WHOLE)
         case _:
@@ -84,6 +96,28 @@ def _whole(reader: OperandReader, value: Value, node: Node) -> Value | None:
         one, zero = (Value(m.IntLiteral(number), WHOLE) for number in (1, 0))
         return reader.joined(value.expression, one, zero, node)
     return value if value.kind == WHOLE else None
+
+
+def _rounded(value: Value, to_whole: Callable[[float], int]) -> Value | None:
+    """A number with a point, which is written out, as a whole number; None for others."""
+    is_written = all(map(_is_written, m.walk(value.expression)))
+    number = constant(value.expression) if is_written else None
+    if not isinstance(number, float) or abs(number) >= INT32.high:
+        return None
+    return Value(exact_literal_of(to_whole(number)), WHOLE)
+
+
+def _is_written(part: m.Expression) -> bool:
+    """Whether Python computes a part of a literal of 64 bits as `constant` does."""
+    match part:
+        case m.IntLiteral(number):
+            return number <= INT32.high
+        case m.FloatLiteral(text):  # one of 32 bits may be rounded to another number
+            return text[-1] in "dD" or single(float_value(text)) == float_value(text)
+        case m.Binary():
+            return isinstance(constant(part), float)
+        case _:
+            return isinstance(part, m.Paren | m.Unary)
 
 
 def _certainly_whole(reader: OperandReader, value: Value, node: Node) -> Value:

@@ -29,6 +29,11 @@ class OperandReader(ABC):
     mixes: ClassVar[bool]
     asking: ClassVar[frozenset[str]] = frozenset()
 
+    @property
+    @abstractmethod
+    def rounds_to_whole(self) -> bool:
+        """Whether rounding gives whole numbers, as since Python 3."""
+
     @abstractmethod
     def read(self, node: Node) -> Value:
         """The value of an expression. Unread: the model has none for it."""

@@ -6,6 +6,7 @@ from typing import TypeAlias
 
 from rebsync import model as m
 from rebsync.records import dataclass
+from rebsync.reverse.models.building import bare, chosen
 from rebsync.reverse.models.texts import TEXT
 from rebsync.static.types import BOOLEAN, DOUBLE, INT
 
@@ -27,3 +28,14 @@ class Value:
     kind: Kind
     single: bool = False
     mixed: bool = False
+
+
+def as_number(value: Value) -> Value:
+    """A truth value as Python computes with it, 1 or 0; other values as they are."""
+    if value.kind != TRUTH:
+        return value
+    match bare(value.expression):
+        case m.BoolLiteral(truth):
+            return Value(m.IntLiteral(int(truth)), WHOLE)
+        case expression:
+            return Value(chosen(expression, m.IntLiteral(1), m.IntLiteral(0)), WHOLE)

@@ -7,8 +7,10 @@ from dataclasses import replace
 
 from tree_sitter import Node
 
+from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
-from rebsync.reverse.python.generated.idioms import is_plain
+from rebsync.reverse.python.generated.idioms import ahead
+from rebsync.reverse.python.generated.idioms import times as times_of
 from rebsync.reverse.python.generated.py_types import call_parts
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import BY_NAME, BY_PLACE, PyCode, PyParameter, Scope
@@ -54,7 +56,7 @@ def in_order(
     if is_spread or not (is_whole and named_.keys() <= free):
         raise reader.unread(node, _OTHERS)
     ordered = [p.name for p in parameters if p.name in named_]
-    if [*named_] != ordered and not all(is_plain(v) for n, v in named_.items() if n != "when"):
+    if [*named_] != ordered and not all(_is_calm(reader, *each) for each in named_.items()):
         raise reader.unread(node, "give these in the order of the parameters")
     bound |= named_
     found = [
@@ -64,6 +66,16 @@ def in_order(
     if any(p.name in bound for p in parameters[len(known) :]):
         raise reader.unread(node, _OTHERS)
     return [each for each in known if each is not None]
+
+
+def _is_calm(reader: ModelExpressionReader, name: str, argument: Node) -> bool:
+    """Whether an argument does nothing, whichever of them is evaluated first."""
+    if argument.type == "identifier":
+        return True
+    with ahead(reader):
+        times = times_of(reader, argument) if name == "when" else None
+        found = [reader.expression(argument)] if times is None else [*times.values()]
+    return all(map(is_calm, found))
 
 
 def shared(

@@ -60,6 +60,14 @@ def _looked_up(reader: ModelExpressionReader, node: Node, written: Node, key: No
     return found or NOBODY
 
 
+def is_method(reader: ModelExpressionReader, node: Node) -> bool:
+    """Whether something names a method of the object, and does not call it."""
+    holder, _, name = text_of(node).rpartition(".")
+    names = reader.names
+    is_method = name in names.sends or (name in names.functions and name not in names.properties)
+    return node.type == "attribute" and holder == reader.own and is_method
+
+
 def known_there(reader: ModelExpressionReader, node: Node) -> tuple[str, m.Expression] | None:
     """The local of `f`, or `f is not None`, that may be no function, and when it is one."""
     operands = named(node) if node.type == "comparison_operator" else [node]

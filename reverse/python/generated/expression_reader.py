@@ -54,6 +54,10 @@ class ModelExpressionReader(OperandReader):
     mixes: ClassVar[bool] = False
     asking: ClassVar[frozenset[str]] = _ASKING
 
+    @property
+    def rounds_to_whole(self) -> bool:
+        return True
+
     def unread(self, node: Node, why: str) -> Unread:
         return Unread(self.py.span(node), why)
 

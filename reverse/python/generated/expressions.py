@@ -36,6 +36,7 @@ from rebsync.reverse.syntax.py_tree import field, named, number_of, text_of, who
 from rebsync.static.types import PRIMITIVES
 from rebsync.terminal import with_escapes
 
+_LIBRARIES = ("math", "random")
 _CASTS = {f"to_{name}": type_ for name, type_ in PRIMITIVES.items()}
 _LEVELS = {"|": 6, "^": 7, "&": 8, "<<": 9, ">>": 9, "+": 10, "-": 10}
 _LEVELS |= dict.fromkeys(("*", "/", "%", "//"), 11)
@@ -130,9 +131,8 @@ class Expressions(ModelExpressionReader):
             return found if is_one else idioms.grouped(node, found)
         if (compared := tuples.compared(self, node, signs[0], operands)) is not None:
             return compared
-        level = _COMPARISON + 1
-        left, right = (self._operand(o, level) for o in operands)
-        idioms.assert_alike(self, node, signs[0], (left, right))
+        left, right = (self._operand(o, _COMPARISON + 1) for o in operands)
+        left, right = idioms.alike(self, node, signs[0], (left, right))
         return m.Binary(signs[0], left, right, self.py.span(node))
 
     def _operand(self, node: Node, least: int) -> m.Expression:
@@ -164,8 +164,7 @@ class Expressions(ModelExpressionReader):
     def compared(
         self, sign: str, left: Value, right: Value, node: Node, number: int
     ) -> m.Expression:
-        sides = left.expression, right.expression
-        idioms.assert_alike(self, node, sign, sides)
+        sides = idioms.alike(self, node, sign, (left.expression, right.expression))
         return binary("!=" if sign == "<>" else sign, *sides, self.span(node))
 
     def operation(self, operator: str, left: Value, right: Value, node: Node) -> Value:
@@ -194,7 +193,7 @@ class Expressions(ModelExpressionReader):
         if not holder:
             is_own = self.names.constants.binds(name) or self.hides_name(name)
             return "" if is_own else f"builtins.{name}"
-        return text_of(function) if holder == "random" and self._is_of_library(holder) else ""
+        return text_of(function) if holder in _LIBRARIES and self._is_of_library(holder) else ""
 
     def _is_of_library(self, name: str) -> bool:
         """Whether a module of the standard library has its own name here."""
@@ -322,9 +321,7 @@ class Expressions(ModelExpressionReader):
                 return m.Call(None, "pow", tuple(map(self.expression, arguments)), span=span)
             case "square_root", 1:
                 return m.Call(None, "sqrt", (self.expression(arguments[0]),), span=span)
-            case "copied", 1:
-                return self.expression(arguments[0])
-            case "copy.deepcopy", 1 if self._is_of_library("copy"):
+            case "copied" | "copy.deepcopy", 1 if called == "copied" or self._is_of_library("copy"):
                 return self.expression(arguments[0])
             case "to_rebec", 2:
                 type_ = m.Type(original(string_value(arguments[0]) or ""))

@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.analysis.intervals.writes import array_of, is_own, own, written
-from rebsync.reverse.models.building import bare, chosen
+from rebsync.reverse.models.building import bare
+from rebsync.reverse.python.expressions import values
+from rebsync.reverse.python.expressions.conditions import signs_of
 from rebsync.reverse.python.generated.cuts import FUNCTIONS, other_division
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.kinds import is_floating
 from rebsync.reverse.python.generated.named_constants import is_moment
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.py_tree import field, named, text_of
-from rebsync.static.types import BOOLEAN, INT
+from rebsync.static.types import BOOLEAN, DOUBLE, INT
 
 _PLAIN = frozenset({"identifier", "attribute", "integer", "float", "true", "false", "none"})
 _AROUND = frozenset(
@@ -22,22 +27,32 @@ _AROUND = frozenset(
         *("unary_operator", "conditional_expression"),
     }
 )
+_BY_VALUE = frozenset({"<", "<=", ">", ">=", "==", "!=", "in", "not in"})
 _CALM = frozenset({"abs", "min", "max", "bool", "int8", "int16", "int32", "divide", "remainder"})
+_COPYING = frozenset({"copied", "copy.deepcopy"})
 _GROWING = frozenset({"+", "-", "*", "<<", ">>", "&", "|", "^"})
 _CHANGES = "how often this is done may change: say it with numbers or locals"
 
 
-def assert_alike(
+def alike(
     reader: ModelExpressionReader,
     node: Node,
     operator: str,
     sides: tuple[m.Expression, m.Expression],
-) -> None:
-    """Unread: what is compared are a number and a truth value, or which of two of these is less."""
+) -> tuple[m.Expression, m.Expression]:
+    """What is compared, with truth values as the numbers that they are beside others.
+
+    Unread: a number and a truth value are compared otherwise than by an operator: a pattern, and
+    `is`, do not take one for the other.
+    """
     kinds = [reader.kind(side) for side in sides]
-    truths = kinds.count(m.Type("boolean"))
-    if (truths == 1 and None not in kinds) or (truths == 2 and operator not in ("==", "!=")):
+    truths = kinds.count(BOOLEAN)
+    if (truths < 2 or operator in ("==", "!=")) and (truths != 1 or None in kinds):
+        return sides
+    is_by_value = node.type == "comparison_operator" and _BY_VALUE.issuperset(signs_of(node))
+    if not is_by_value or not {*kinds} <= {BOOLEAN, INT}:
         raise reader.unread(node, "the model compares no truth value with a number")
+    return as_number(reader, sides[0]), as_number(reader, sides[1])
 
 
 def grouped(node: Node, found: m.Expression) -> m.Expression:
@@ -86,18 +101,42 @@ def divided(reader: ModelExpressionReader, node: Node, read: m.Binary) -> m.Bina
 
 def as_number(reader: ModelExpressionReader, operand: m.Expression) -> m.Expression:
     """An operand of an addition or product, of which Python takes truth values for 1 and 0."""
-    if reader.kind(operand) != BOOLEAN:
-        return operand
-    return m.Paren(chosen(bare(operand), m.IntLiteral(1), m.IntLiteral(0)))
+    found = values.as_number(reader.value(operand)).expression
+    return m.Paren(found) if isinstance(found, m.Conditional) and found != operand else found
+
+
+@contextmanager
+def ahead(reader: ModelExpressionReader) -> Iterator[None]:
+    """Lets expressions be read to look at what they are; they are still to be read."""
+    divided = dict(reader.cuts.floored)
+    try:
+        yield
+    finally:
+        reader.cuts.floored.clear()
+        reader.cuts.floored.update(divided)
 
 
 def kind_at(reader: ModelExpressionReader, node: Node) -> m.Type | None:
     """The kind of what is still to be read, as the types of locals are told."""
-    divided = dict(reader.cuts.floored)
-    found = reader.kind(reader.expression(node))
-    reader.cuts.floored.clear()
-    reader.cuts.floored.update(divided)
-    return found
+    with ahead(reader):
+        return reader.kind(reader.expression(node))
+
+
+def copied_type(reader: ModelExpressionReader, node: Node) -> m.Type | None:
+    """The type of an array that is copied; None of all else."""
+    called = reader.of_run_time(text_of(field(node, "function"))) if node.type == "call" else ""
+    with ahead(reader):
+        return _array_type(reader, reader.expression(node)) if called in _COPYING else None
+
+
+def _array_type(reader: ModelExpressionReader, read: m.Expression) -> m.Type | None:
+    """The type of an array, or of both that it may be; None where Python's elements are wider."""
+    if isinstance(read, m.Conditional):
+        ways = _array_type(reader, bare(read.then)), _array_type(reader, bare(read.otherwise))
+        return ways[0] if ways[0] == ways[1] else None
+    type_ = type_of(reader, read) if _is_array(reader, read) else None
+    is_same = isinstance(read, m.Name | m.Member) and type_ is not None
+    return type_ if is_same and m.Type(type_.name) in (INT, BOOLEAN, DOUBLE) else None
 
 
 def type_of(reader: ModelExpressionReader, place: m.Expression) -> m.Type | None:

@@ -15,10 +15,11 @@ from rebsync import model as m
 from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.python.generated import idioms
 from rebsync.reverse.python.generated.arguments import in_order
-from rebsync.reverse.python.generated.callees import callee, evaluated
+from rebsync.reverse.python.generated.callees import callee, evaluated, is_method
 from rebsync.reverse.python.generated.closures import arguments_of
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.helpers import own_name
+from rebsync.reverse.python.generated.lazy import DISPLAYS, is_iterator
 from rebsync.reverse.python.generated.names import Callee, ChosenCallee, Closure
 from rebsync.reverse.python.generated.pair_methods import takes_time
 from rebsync.reverse.python.generated.py_types import call_parts, type_of
@@ -105,10 +106,8 @@ def _is_send(expressions: ModelExpressionReader, value: Node) -> bool:
         then, _, otherwise = named(value)
         plain = (n for n in (then, otherwise) if n.type == "attribute")
         return [_is_send(expressions, each) for each in plain] == [True, True]
-    holder, _, name = text_of(value).rpartition(".")
-    names = expressions.names
-    is_method = name in names.functions and name not in names.servers | names.properties
-    return holder == "self" == expressions.own and (name in names.sends or is_method)
+    is_server = text_of(value).removeprefix("self.") in expressions.names.servers
+    return expressions.own == "self" and is_method(expressions, value) and not is_server
 
 
 def is_table_of_functions(expressions: ModelExpressionReader, table: Node) -> bool:
@@ -123,6 +122,12 @@ def kept_table(reader: ModelStatementReader, left: Node, value: Node) -> bool:
     Nothing of what the table holds changes until then: it holds functions, or only the next
     statement looks up something.
     """
+    if left.type == "identifier" and is_shown(reader.expressions, value):
+        others = [each for each in _mentions(value, text_of(left)) if each != left]
+        if not all(_is_gone_through(reader.expressions, each) for each in others):
+            return False
+        reader.expressions.kept_tables[text_of(left)] = value
+        return True
     if value.type != "dictionary" or left.type != "identifier":
         return False
     name, asked = text_of(left), _value_behind(value)
@@ -135,6 +140,23 @@ def kept_table(reader: ModelStatementReader, left: Node, value: Node) -> bool:
             return False
     reader.expressions.kept_tables[name] = value
     return True
+
+
+def is_shown(expressions: ModelExpressionReader, value: Node) -> bool:
+    """Whether a tuple or list has functions of the object, be it in pairs with literals."""
+    listed = named(value) if value.type in DISPLAYS else []
+    parts = [p for each in listed for p in (named(each) if each.type == "tuple" else [each])]
+    functions = [each for each in parts if is_method(expressions, each)]
+    is_same = all(each in functions or idioms.is_literal(expressions, each) for each in parts)
+    return bool(functions) and is_same
+
+
+def _is_gone_through(expressions: ModelExpressionReader, use: Node) -> bool:
+    """Whether a use of a display is that of a loop, or of an iterator."""
+    above = use.parent
+    if above is None or above.type != "argument_list":
+        return above is not None and above.type == "for_statement" and field(above, "right") == use
+    return is_iterator(expressions, above.parent)
 
 
 def _is_looked_up(use: Node) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import TypeAlias
 
@@ -10,11 +11,16 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.models.building import binary, selected
-from rebsync.reverse.python.expressions.elements import known_range, rows
+from rebsync.reverse.python.expressions.elements import MOST, known_range, rows
 from rebsync.reverse.python.expressions.patterns import asked, cases
+from rebsync.reverse.python.expressions.values import Value
 from rebsync.reverse.python.generated import aliases, endings, idioms
 from rebsync.reverse.python.generated.arrays import NO_LENGTH, array_elements
+from rebsync.reverse.python.generated.callees import callee, is_method
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
+from rebsync.reverse.python.generated.inner import is_shown
+from rebsync.reverse.python.generated.lazy import DISPLAYS
+from rebsync.reverse.python.generated.names import Callee
 from rebsync.reverse.python.generated.py_types import call_parts, markers_above
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
 from rebsync.reverse.python.generated.tuples import parts
@@ -96,7 +102,9 @@ def _are_literals(reader: ModelStatementReader, node: Node) -> bool:
 
 def _is_shown(reader: ModelStatementReader, node: Node) -> bool:
     """Whether the values that are gone through are written out somewhere."""
-    return node.type in ("tuple", "list") or bool(parts(reader.expressions, node, arrays=False))
+    if node.type in DISPLAYS or text_of(node) in reader.expressions.kept_tables:
+        return True
+    return bool(parts(reader.expressions, node, arrays=False))
 
 
 def numbered(
@@ -137,19 +145,44 @@ def _listed(reader: ModelStatementReader, node: Node, name: str, values: list[No
 def _unrolled(reader: ModelStatementReader, node: Node, names: list[str]) -> m.Block:
     """What a loop through values that are written out does, once for each of them."""
     body, expressions = field(node, "body"), reader.expressions
-    stored = idioms.stored_in(body)
-    given = {text_of(n) for n in nodes_in(field(node, "right")) if n.type == "identifier"}
+    patterns = (n for n in nodes_in(body) if n.type == "case_pattern")
+    stored = idioms.stored_in(body).union(*map(_identifiers, patterns))
+    given = _identifiers(field(node, "right"))
     leaves = any(n.type in _LEAVING for n in nodes_in(body))
-    if leaves or {*names, *given} & set(stored) or set(names) & expressions.locals.keys():
+    if leaves or {*names, *given} & stored or set(names) & expressions.locals.keys():
         raise expressions.unread(node, "the model has no such loop")
     statements: list[m.Statement] = []
-    for values in rows(expressions, field(node, "right"), len(names)):
-        are_arrays = _are_arrays(reader, node, names)
-        if not (are_arrays or all(_is_steady(expressions, v.expression) for v in values)):
+    outer, are_arrays = expressions.kept_sends, _are_arrays(reader, node, names)
+    for values, sends in [*_rounds(expressions, field(node, "right"), names)]:
+        if not (are_arrays or all(_is_steady(expressions, v.expression) for v in values.values())):
             raise expressions.unread(node, "the model has no such loop")
-        with expressions.standing_for(names, values):
+        expressions.kept_sends = {**outer, **sends}
+        with expressions.standing_for([*values], [*values.values()]):
             statements.append(reader.suite(body))
+        expressions.kept_sends = outer
     return m.Block(tuple(statements), span=expressions.py.span(node))
+
+
+def _identifiers(node: Node) -> set[str]:
+    return {text_of(n) for n in nodes_in(node) if n.type == "identifier"}
+
+
+def _rounds(
+    expressions: ModelExpressionReader, right: Node, names: list[str]
+) -> Iterator[tuple[dict[str, Value], dict[str, Callee]]]:
+    """What the variables of a loop are round by round: values, and functions of the object."""
+    right = expressions.kept_tables.get(text_of(right), right)
+    if not is_shown(expressions, right):
+        for values in rows(expressions, right, len(names)):
+            yield dict(zip(names, values, strict=True)), {}
+        return
+    for each in named(right):
+        given = named(each) if len(names) > 1 and each.type == "tuple" else [each]
+        if len(given) != len(names) or len(named(right)) > MOST:
+            raise expressions.unread(each, "nobody knows what this goes through")
+        by_name = dict(zip(names, given, strict=True))
+        sends = {n: callee(expressions, g) for n, g in by_name.items() if is_method(expressions, g)}
+        yield {n: expressions.read(g) for n, g in by_name.items() if n not in sends}, sends
 
 
 def _are_arrays(reader: ModelStatementReader, node: Node, names: list[str]) -> bool:

@@ -12,6 +12,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
+from rebsync.reverse.python.generated.inner import is_shown
 from rebsync.reverse.python.generated.record_classes import fields_of, given_to, is_tuple
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
 from rebsync.reverse.python.generated.tuples import parts
@@ -69,6 +70,8 @@ def _made_of(reader: ModelStatementReader, value: Node) -> _Made | None:
         given = given_to(value, fields)
         numbers = [*map(str, range(len(fields)))] if is_tuple(reader.expressions, called) else []
         return _Made(fields, given, [*fields, *numbers]) if given else None
+    if is_shown(reader.expressions, value):
+        return None
     values = named(value) if value.type == "tuple" else _chosen(reader, value)
     numbers = [*map(str, range(len(values or ())))]
     return _Made(numbers, [*zip(numbers, values, strict=True)], numbers) if values else None

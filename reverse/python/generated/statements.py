@@ -19,6 +19,7 @@ from rebsync.reverse.python.generated import (
     endings,
     going_on,
     idioms,
+    lazy,
     loops,
     records,
     stored,
@@ -41,7 +42,7 @@ from rebsync.reverse.python.generated.py_types import (
 from rebsync.reverse.python.generated.sends import unpacked
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
 from rebsync.reverse.syntax.ancestors import climb
-from rebsync.reverse.syntax.py_tree import field, is_constant_text, named, text_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 from rebsync.statements import UNREADABLE
 
 _HOISTED = "local "
@@ -166,7 +167,7 @@ class Statements(ModelStatementReader):
         span = self.expressions.py.span(node)
         if inner.type == "ellipsis":
             return [m.Empty(span=span)]
-        if is_constant_text(inner):
+        if lazy.does_nothing(self.expressions, inner):
             return []
         if inner.type == "assignment":
             return self.assigned(inner)
@@ -243,6 +244,7 @@ class Statements(ModelStatementReader):
         if name in self.expressions.names.constants:
             raise self.expressions.unread(node, f'"{name}" is a constant elsewhere')
         type_ = idioms.kind_at(self.expressions, value)
+        type_ = type_ or idioms.copied_type(self.expressions, value)
         elsewhere = self.annotated.get(name)
         if elsewhere is not None and is_kind(elsewhere, type_):
             type_ = elsewhere

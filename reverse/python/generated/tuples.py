@@ -203,7 +203,8 @@ def table(reader: ModelExpressionReader, node: Node) -> Node | None:
     if node.type == "dictionary":
         return node
     kept_ = reader.kept_tables.get(text_of(node))
-    return kept_ if kept_ is not None else _constant(reader, node, "dictionary")
+    is_kept = kept_ is not None and kept_.type == "dictionary"
+    return kept_ if is_kept else _constant(reader, node, "dictionary")
 
 
 def table_asked(reader: ModelExpressionReader, node: Node) -> tuple[Node, Node] | None:
@@ -287,13 +288,13 @@ def compared(
     if not is_even or any(isinstance(each, Node) and may_fail(reader, each) for each in parts):
         raise reader.unread(node, "the model has no such comparison")
     read = [(_read(reader, one), _read(reader, other)) for one, other in pairs]
-    for pair in read:
+    for at, pair in enumerate(read):
         kinds = [reader.kind(side) for side in pair]
         if not all(map(is_calm, pair)):  # a property runs a function
             raise reader.unread(node, "what this does may count for what it is compared with")
         if any(kind is None or is_floating(kind) or kind.dimensions for kind in kinds):
             raise reader.unread(node, "the model has no such comparison")
-        idioms.assert_alike(reader, node, operator, pair)
+        read[at] = idioms.alike(reader, node, operator, pair)
     return idioms.grouped(node, _lexicographical(operator, read))
 
 
