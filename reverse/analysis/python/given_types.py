@@ -89,10 +89,9 @@ class GivenTypes:
         match call.callee:
             case s.LibraryCallee(name, None):
                 return self._of_library(call, name, function)
-            case s.MethodCallee(receiver, name, None, None) if name in CLOCK:
-                if self._is_mailbox(receiver, function):
-                    return A_NUMBER
             case s.MethodCallee(receiver, name, None, None):
+                if name in CLOCK and self._is_mailbox(receiver, function):
+                    return A_NUMBER
                 types = self._types.of(receiver, function)
                 if name == "parse_args" and self._origins.of(receiver, function) == _PARSER:
                     return frozenset((LibraryType("argparse.Namespace"),))

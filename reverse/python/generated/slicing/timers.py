@@ -72,9 +72,10 @@ def chosen_methods(function: Scope) -> frozenset[str]:
 
 def _is_chosen(attribute: Node) -> bool:
     above = attribute.parent
-    if above is not None and above.type == "argument_list" and above.parent is not None:
-        return text_of(field(above.parent, "function")).endswith(".get")
-    return above is not None and above.type in ("pair", "conditional_expression")
+    if above is None or above.type in ("pair", "conditional_expression"):
+        return above is not None
+    called, _ = call_parts(above.parent) or ("", [])
+    return above.type == "argument_list" and called.endswith(".get")
 
 
 def _own_method_but_logs(node: Node) -> str:
