@@ -256,7 +256,7 @@ class InferredTypes:
         if not isinstance(key, CapturedVariable) or key.function in self._arguments.escaping:
             return []
         given = self._arguments.arguments(key.function, key.name)
-        found = [v.value for _, v in given if isinstance(v, e.Literal)]
+        found: list[object] = [v.value for _, v in given if isinstance(v, e.Literal)]
         is_stored = self._graph.stores.of(key) != [(key.function, ANY_VALUE)]
         is_filled = bool(self._arguments.messages(key.function, key.name))
         return [] if is_stored or is_filled or len(found) < len(given) else found
