@@ -80,6 +80,26 @@ class PythonValues:
         for child in ast.iter_child_nodes(found):
             yield from self.walk(child)
 
+    def elements(self, value: ast.expr, depth: int = 0) -> list[ast.expr] | None:
+        """The elements of a list, and of those unpacked in it or added; None: it is computed.
+
+        What is unpacked and computed stays a `*`, of which nobody knows what it is.
+        """
+        if depth > _DEEPEST:
+            return None
+        match self.resolved(value):
+            case ast.List(elts=items) | ast.Tuple(elts=items):
+                inner = ((i, self._unpacked(i, depth)) for i in items)
+                return [e for item, found in inner for e in ([item] if found is None else found)]
+            case ast.BinOp(left=left, op=ast.Add(), right=right):
+                first, last = (self.elements(side, depth + 1) for side in (left, right))
+                return None if first is None or last is None else [*first, *last]
+            case _:
+                return None
+
+    def _unpacked(self, item: ast.expr, depth: int) -> list[ast.expr] | None:
+        return self.elements(item.value, depth + 1) if isinstance(item, ast.Starred) else None
+
     # --- arguments ------------------------------------------------------------------------------
 
     def keywords(self, call: ast.Call) -> dict[str, ast.expr]:
@@ -116,10 +136,8 @@ class PythonValues:
         """The texts of a list; one that is computed where it is none."""
         if value is None or (isinstance(value, ast.Constant) and value.value is None):
             return ()
-        found = self.resolved(value)
-        if isinstance(found, ast.List | ast.Tuple):
-            return tuple(map(self.words, found.elts))
-        return (self.computed(value),)
+        found = self.elements(value)
+        return (self.computed(value),) if found is None else tuple(map(self.words, found))
 
     def computed(self, value: ast.expr) -> Words:
         """A text of which nothing is known."""
@@ -244,8 +262,8 @@ class PythonValues:
         """What the parameters of a node come from."""
         if value is None:
             return
-        listed = self.resolved(value)
-        for item in listed.elts if isinstance(listed, ast.List | ast.Tuple) else [listed]:
+        listed = self.elements(value)
+        for item in [self.resolved(value)] if listed is None else listed:
             found = self._unwrapped(self.resolved(item))
             if isinstance(found, ast.Dict):
                 yield from self._table(found, "")
@@ -305,11 +323,12 @@ class PythonValues:
         """The remappings of a node."""
         if value is None:
             return
-        listed = self.resolved(value)
-        if not isinstance(listed, ast.List | ast.Tuple | ast.Set):
+        found = self.resolved(value)
+        listed = found.elts if isinstance(found, ast.Set) else self.elements(found)
+        if listed is None:
             yield Unlisted("the remappings of a node", self.span(value))
             return
-        for given in listed.elts:
+        for given in listed:
             item = self.resolved(given)
             if isinstance(item, ast.Tuple | ast.List) and len(item.elts) == 2:
                 yield self.remap(item.elts[0], item.elts[1], item)

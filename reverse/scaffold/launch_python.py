@@ -213,8 +213,7 @@ def _said(value: ast.expr, values: PythonValues) -> str:
 
 def _files(value: ast.expr, values: PythonValues) -> Iterable[str]:
     """The names of the files that parameters come from."""
-    listed = values.resolved(value)
-    for item in listed.elts if isinstance(listed, ast.List | ast.Tuple) else []:
+    for item in values.elements(value) or ():
         source = values.resolved(item)
         if not isinstance(source, ast.Dict):
             texts = [n for n in ast.walk(source) if isinstance(n, ast.Constant)]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from rebsync.reverse.analysis.held_values import held_by
 from rebsync.reverse.analysis.origins import ClassOrigin, FunctionOrigin, LibraryOrigin, Origins
 from rebsync.reverse.analysis.python.argument_types import ArgumentTypes, parameter_of
 from rebsync.reverse.analysis.python.attribute_types import AttributeTypes
@@ -26,12 +27,12 @@ from rebsync.reverse.analysis.python.value_types import (
     union,
     values_of,
 )
-from rebsync.reverse.analysis.stores import Member, key_of
+from rebsync.reverse.analysis.stores import CallResult, Member, Value, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.libraries.attributes import NODE, OF_NUMBERS_ALONE, OTHERWISE, result_of
 from rebsync.reverse.libraries.routines import Access
-from rebsync.reverse.libraries.tables.runtime import WHOLE
+from rebsync.reverse.libraries.tables.runtime import CLOCK, MAILBOX, WHOLE
 
 _COMPUTING = OF_NUMBERS_ALONE | {"builtins.divmod"}
 _LIST, _QUEUE, _SET = OwnType.LIST, OwnType.QUEUE, OwnType.SET
@@ -89,6 +90,8 @@ class GivenTypes:
             case s.LibraryCallee(name, None):
                 return self._of_library(call, name, function)
             case s.MethodCallee(receiver, name, None, None):
+                if name in CLOCK and self._is_mailbox(receiver, function):
+                    return A_NUMBER
                 types = self._types.of(receiver, function)
                 if name == "parse_args" and self._origins.of(receiver, function) == _PARSER:
                     return frozenset((LibraryType("argparse.Namespace"),))
@@ -96,12 +99,28 @@ class GivenTypes:
                     return NO_TYPES
                 if all(map(_has_methods, types)):
                     return union(self._of_method(t, name, call, function) for t in types)
-            case s.ValueCallee(e.Global(module, name) as value) if name in WHOLE:
-                key = key_of(value, function)
-                is_plain = key is not None and not self._graph.stores.of(key)
-                if is_plain and module not in self._graph.program.modules:
-                    return A_NUMBER  # the run-time part, which is the same in all programs
+            case s.ValueCallee(value) if self._of_run_time(value, function) in WHOLE:
+                return A_NUMBER
         return self._of_program(call, function)
+
+    def _of_run_time(self, value: e.Expression, function: str) -> str:
+        """The name of a value of the run-time part, which is the same in all programs; or none."""
+        key = key_of(value, function) if isinstance(value, e.Global) else None
+        is_plain = key is not None and not self._graph.stores.of(key)
+        if not (isinstance(value, e.Global) and is_plain):
+            return ""
+        return value.name if value.module not in self._graph.program.modules else ""
+
+    def _is_mailbox(self, value: Value, function: str, depth: int = 2) -> bool:
+        """Whether a value is the mailbox of a node."""
+        match value:
+            case CallResult(s.Call(_, s.ValueCallee(made))):
+                return self._of_run_time(made, function) == MAILBOX
+            case e.Attribute() | e.Temporary() if depth:
+                held = held_by(self._origins, value, function)
+                return bool(held) and all(self._is_mailbox(v, of, depth - 1) for of, v in held)
+            case _:
+                return False
 
     def _of_program(self, call: s.Call, function: str) -> ValueTypes:
         """The types of what functions of the program give, and of new objects of its classes."""

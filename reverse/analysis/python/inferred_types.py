@@ -251,6 +251,16 @@ class InferredTypes:
         found = union(map(self.of_stored, given))
         return found | union(map(self.attributes.of_class, messages))
 
+    def constants(self, key: Key | None) -> list[object]:
+        """What a parameter may be where all calls give constants; nothing if it may be more."""
+        if not isinstance(key, CapturedVariable) or key.function in self._arguments.escaping:
+            return []
+        given = self._arguments.arguments(key.function, key.name)
+        found: list[object] = [v.value for _, v in given if isinstance(v, e.Literal)]
+        is_stored = self._graph.stores.of(key) != [(key.function, ANY_VALUE)]
+        is_filled = bool(self._arguments.messages(key.function, key.name))
+        return [] if is_stored or is_filled or len(found) < len(given) else found
+
     def _own_parameter(self, key: CapturedVariable) -> Parameter | None:
         """The parameter of a function that a name is."""
         program = self._graph.program

@@ -149,9 +149,11 @@ class OperandKinds:
         return self._types.mapped(function, self._name)
 
     def is_whole(self, value: e.Expression) -> bool:
-        """Whether a value is declared as a whole number."""
+        """Whether a value is declared as a whole number, or is a parameter that only gets such."""
+        constants = self._types.constants(key_of(value, self._name))
         types = self._types.attributes.declared(value, self._name)
-        return bool(types) and all(isinstance(each, t.Integer | t.Truth) for each in types)
+        is_declared = bool(types) and all(isinstance(x, t.Integer | t.Truth) for x in types)
+        return is_declared or (bool(constants) and all(isinstance(x, int) for x in constants))
 
     def length(self, value: e.Expression) -> int:
         """How many elements an array of generated code has, none of them asked for from its end."""

@@ -32,10 +32,15 @@ def _cpp() -> dict[str, Routine]:
     return {**_IN_BOTH, **clock, "isA": Routine(Kind.TOLD, ("object", "class"))}
 
 
+# The same in Python: what gives times of the model, which are whole numbers.
+CLOCK = {
+    **{"now": "now", "arrival": "currentMessageArrival"},
+    **{"expiry": "currentMessageDeadline", "waiting_time": "currentMessageWaitingTime"},
+}
+
+
 def _python() -> dict[str, Routine]:
-    names = {"now": "now", "arrival": "currentMessageArrival"}
-    names |= {"expiry": "currentMessageDeadline", "waiting_time": "currentMessageWaitingTime"}
-    clock = {n: Routine(Kind.TOLD, result=r, does=Effect.CLOCK) for n, r in names.items()}
+    clock = {n: Routine(Kind.TOLD, result=r, does=Effect.CLOCK) for n, r in CLOCK.items()}
     return {**_IN_BOTH, **clock, "is_a": Routine(Kind.TOLD, ("object", "class"))}
 
 

@@ -75,7 +75,7 @@ def subject(reader: BodyStatementReader, node: Node) -> tuple[list[m.Statement],
     if len(subjects) != 1:
         raise Unread(reader.frame.span(node), "such a match is not read")
     value = _read(reader, subjects[0])
-    names = [case.name for case in cases(reader.expressions, node) if case.name is not None]
+    names = [n for case in cases(reader.expressions, node) for n in case.names if n is not None]
     if value is None or (is_calm(value.expression) and not names):
         return [], value
     return kept(reader, value, "subject", subjects[0])
@@ -89,5 +89,5 @@ def ways(reader: BodyStatementReader, node: Node, of: Value | None) -> list[Way]
 
 def _asked(reader: BodyStatementReader, of: Value | None, case: MatchCase) -> Asked:
     """Whether a branch is taken, if none above it is."""
-    first = _stored(reader, case.name, of) if case.name is not None else []
+    first = [s for n in case.names if n is not None for s in _stored(reader, n, of)]
     return first, patterns.asked(reader.expressions, case, of)

@@ -23,38 +23,35 @@ _NONE = "the model has no such case"
 class MatchCase:
     """A branch of a `match`: the name that takes everything, or some values; then what is done.
 
-    A value is negative where a minus stands before it. Where a tuple is looked at, `beside` are the
-    values of its other elements.
+    There is one of each for what is looked at, or for each element of a tuple. A value is negative
+    where a minus stands before it.
     """
 
     clause: Node
-    name: Node | None
-    values: list[tuple[Node, bool]]
+    names: tuple[Node | None, ...]
+    values: tuple[list[tuple[Node, bool]], ...]
     guard: Node | None
     block: Node
-    beside: tuple[list[tuple[Node, bool]], ...] = ()
 
 
 def cases(reader: OperandReader, node: Node, width: int = 1) -> Iterator[MatchCase]:
     """The branches of a `match` of one value, or of a tuple. Unread: a pattern looks into another
-    container or an object, or names an element, or nothing is left for the cases behind it.
+    container or an object, or nothing is left for the cases behind it.
     """
     clauses = [c for c in named(field(node, "body")) if c.type == "case_clause"]
     for clause in clauses:
         patterns = [c for c in named(clause) if c.type == "case_pattern"]
         if width > 1 and [n.type for n in named(patterns[0])] == ["tuple_pattern"]:
             patterns = named(named(patterns[0])[0])
-        (name, values), *rest = (_pattern(reader, p) for p in patterns)
+        names, values = zip(*(_pattern(reader, p) for p in patterns), strict=True)
         is_any = width > 1 and [*map(text_of, patterns)] == ["_"]
-        if (len(patterns) != width and not is_any) or any(n for n, _ in rest):
-            raise Unread(reader.span(clause), _NONE)
-        if width > 1 and name is not None:
+        bound = [text_of(n) for n in names if n is not None]
+        if (len(patterns) != width and not is_any) or len(bound) != len(set(bound)):
             raise Unread(reader.span(clause), _NONE)
         guard = clause.child_by_field_name("guard")
         test = named(guard)[0] if guard is not None else None
-        beside = tuple(v for _, v in rest)
-        case = MatchCase(clause, name, values, test, field(clause, "consequence"), beside)
-        if not any((values, *beside)) and test is None and clause != clauses[-1]:
+        case = MatchCase(clause, names, values, test, field(clause, "consequence"))
+        if not any(values) and test is None and clause != clauses[-1]:
             raise Unread(reader.span(clause), "no case behind this one is ever taken")
         yield case
 
@@ -84,10 +81,10 @@ def asked(
 ) -> m.Expression | None:
     """What must hold so that a value takes a branch, if none above it; None: nothing."""
     found: m.Expression | None = None
-    if of is None and case.values:
+    if of is None and any(case.values):
         found = m.Choice((m.BoolLiteral(True), m.BoolLiteral(False)))
     elif of is not None:
-        pairs = zip((of, *beside), (case.values, *case.beside), strict=False)
+        pairs = zip((of, *beside), case.values, strict=False)
         for each in (_is_one(reader, v, values) for v, values in pairs):
             if each is not None:
                 found = each if found is None else binary("&&", found, each)

@@ -326,13 +326,14 @@ def match(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
         why = "what this compares more than once is to be in a variable first"
         raise expressions.unread(node, why)
     for case in cases(expressions, node, len(subjects)):
-        name = text_of(case.name) if case.name is not None else ""
-        if name and not idioms.lasts(expressions, subjects[0], name, case.block):
+        pairs = zip(case.names, subjects, (of, *beside), strict=False)
+        bound = [(text_of(n), s, value) for n, s, value in pairs if n is not None]
+        if not all(idioms.lasts(expressions, s, name, case.block) for name, s, _ in bound):
             why = "this name is not that of what is compared all the time"
             raise expressions.unread(case.clause, why)
         if case.guard is not None and not idioms.is_quiet(case.guard):
             raise expressions.unread(case.guard, "what this does may count for the cases behind it")
-        with expressions.standing_for([name] if name else [], [of] if name else []):
+        with expressions.standing_for([n for n, _, _ in bound], [v for _, _, v in bound]):
             found.append((asked(expressions, case, of, beside), reader.branch(case.block)))
     chain: m.Statement | None = None
     for condition, body in reversed(found):

@@ -54,7 +54,11 @@ from rebsync.reverse.python.generated.slicing.exceptions import raising_again
 from rebsync.reverse.python.generated.slicing.log_words import TEXTS
 from rebsync.reverse.python.generated.slicing.logs import only_describes, own_method
 from rebsync.reverse.python.generated.slicing.services import asked_back
-from rebsync.reverse.python.generated.slicing.timers import called_back, only_logs_by_words
+from rebsync.reverse.python.generated.slicing.timers import (
+    called_back,
+    chosen_methods,
+    only_logs_by_words,
+)
 from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import FUNCTION, PyCode, PyParameter, Scope
@@ -178,7 +182,8 @@ def roles_of(code: PyCode, owner: Scope) -> PyRoles:
     for function in roles.functions.values():
         if function.name not in _PLUMBING:
             _does(roles, function, servers)
-    handed = [n for n, f in roles.functions.items() if only_logs_by_words(f)]
+    chosen = frozenset[str]().union(*map(chosen_methods, roles.functions.values()))
+    handed = [n for n, f in roles.functions.items() if only_logs_by_words(f) and n not in chosen]
     for set_up in (roles.functions[n] for n in ("__init__", "_wire") if n in roles.functions):
         handed += [*called_back(set_up), *asked_back(set_up)]
     if "_publish_state" in roles.functions:

@@ -62,6 +62,22 @@ def only_logs_by_words(function: Scope) -> bool:
     return is_plain and is_logging and not any(map(_own_method_but_logs, nodes))
 
 
+def chosen_methods(function: Scope) -> frozenset[str]:
+    """The methods of the object that a function chooses from, to call one later: in tables,
+    as `TABLE.get(key, self._other)`, and as `self._one if c else self._other`.
+    """
+    own = (n for n in nodes_in(function.node) if n.type == "attribute" and _is_chosen(n))
+    return frozenset(text_of(field(n, "attribute")) for n in own)
+
+
+def _is_chosen(attribute: Node) -> bool:
+    above = attribute.parent
+    if above is None or above.type in ("pair", "conditional_expression"):
+        return above is not None
+    called, _ = call_parts(above.parent) or ("", [])
+    return above.type == "argument_list" and called.endswith(".get")
+
+
 def _own_method_but_logs(node: Node) -> str:
     """The method that a call of one of the object's own calls, if it is not that which logs."""
     name = own_method(node)
