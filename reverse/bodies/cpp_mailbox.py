@@ -27,6 +27,7 @@ from rebsync.reverse.bodies.scope import (
 from rebsync.reverse.bodies.types.cpp_conversions import type_in
 from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.libraries.tables.runtime import names_in_model
+from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.syntax.cpp_calls import string_of
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, squeezed, text_of
 from rebsync.static.types import INT
@@ -158,6 +159,10 @@ def send(
     else:
         target = m.Name(sends.known, reader.cpp.span(node))
     values = tuple(reader.read(a) for a in arguments[expected - sends.arguments : expected])
+    if sends.order:
+        if not all(map(is_calm, values)):
+            raise reader.unread(node, "what this changes is sent in another order")
+        values = tuple(values[place] for place in sends.order)
     told = telling(values, sends.types, sends.rivals, partial(type_in, reader.scope))
     if told is None:
         raise reader.unread(node, WHY, HINT)

@@ -30,7 +30,8 @@ def resolve(scope: Scope, node: Node) -> Meaning | None:
         case "identifier":
             return scope.meaning(text_of(node))
         case "qualified_identifier":
-            return scope.members.get(text_of(node).rpartition("::")[2])
+            name = text_of(node)
+            return scope.locals.get(name) or scope.members.get(name.rpartition("::")[2])
         case "parenthesized_expression" if len(named(node)) == 1:
             return resolve(scope, named(node)[0])
         case "pointer_expression":

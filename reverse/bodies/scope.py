@@ -208,14 +208,16 @@ class Sends:
 
     To the known rebec `known`; or to itself, `known` being "self"; or, `known` being None, to the
     rebec that the first argument names. The last argument, if there is one more, is the time; where
-    it is left out, that is `usual`. `types` are those of the arguments, `rivals` the types that
-    other servers of the name take.
+    it is left out, that is `usual`. `order` says which argument each field gets, where that is not
+    the next one. `types` are those of the fields, `rivals` the types that other servers of the name
+    take.
     """
 
     known: str | None
     server: str
     arguments: int
     usual: tuple[Cpp, Node] | None = None
+    order: tuple[int, ...] = ()
     types: tuple[Type | None, ...] = ()
     rivals: frozenset[tuple[Type | None, ...]] = frozenset()
 

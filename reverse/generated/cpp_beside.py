@@ -54,6 +54,7 @@ _REGISTERS = (
         *("set_parameter", "set_parameters", "setParam", "declare_parameters", "shared_from_this"),
     }
 )
+_STATE = "publishState"
 _HANDS = ("lambda_expression", "this")
 # What only tells where frames are, whatever node makes it.
 _FRAMES = re.compile(r"std::make_(?:unique|shared)<tf2_ros::(?:Static)?TransformBroadcaster>")
@@ -203,19 +204,30 @@ class Beside:
         found = meant or self.code.definitions.get((self.function.owner, name), ())
         return len(found) == 1 and is_calm(Effects(self.function.cpp, self.scope), found[0])
 
-    def _looks(self, lambda_: Node) -> bool:
+    def observes(self, call: CppCall) -> bool:
+        """Whether a lambda has the state published, and else does what touches nothing."""
+        lambda_ = call.arguments[-1] if call.arguments else call.node
+        if lambda_.type != "lambda_expression":
+            return False
+        statements = named(part(lambda_, "body"))
+        told = [s for s in statements if _publishes(s)]
+        return len(told) == 1 and self._looks(lambda_, [s for s in statements if s not in told])
+
+    def _looks(self, lambda_: Node, only: list[Node] | None = None) -> bool:
         captured = inside(lambda_, "lambda_capture_specifier")
         if captured and squeezed(captured[0]) not in ("[]", "[this]", "[=]", "[&]"):
             return False
         if locals_referred_to(lambda_, self.function):
             return False
-        body = part(lambda_, "body")
+        checked = [part(lambda_, "body")] if only is None else only
         inner = {p.name for p in parameters_of(lambda_)}
+        effects = Effects(self.function.cpp, self.scope, returning=only is None, inner=inner)
         try:
-            Effects(self.function.cpp, self.scope, returning=True, inner=inner).check(body)
+            for each in checked:
+                effects.check(each)
         except (Touches, RecursionError):
             return False
-        return not self._raises(body)
+        return _STATE not in effects.inner and not any(map(self._raises, checked))
 
     def _agrees(self, call: CppCall) -> bool:
         """Whether each way through a callback says that it takes what is set."""
@@ -236,6 +248,13 @@ class Beside:
                 for n in said[:1]
             )
         )
+
+
+def _publishes(statement: Node) -> bool:
+    """Whether a statement is a call of the function that publishes the state."""
+    inner = named(statement)[:1] if statement.type == "expression_statement" else []
+    call = call_of(inner[0]) if inner else None
+    return call is not None and text_of(part(call.node, "function")) in (_STATE, f"this->{_STATE}")
 
 
 def _declared(statement: Node) -> set[str]:

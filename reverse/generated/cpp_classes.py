@@ -38,6 +38,7 @@ from rebsync.reverse.generated.cpp_names import (
     is_abstract,
     is_given,
     is_interface,
+    narrow_enums,
     plain_name,
     runtime_of,
     state_types,
@@ -390,7 +391,8 @@ class Classes:
             timers={t.call.node.id: server_of_timer(t, n) for t, n in self._timed_servers(owner)},
             posts=dict(posts_in_bodies(self.code, owner, self.roles, self.served)),
             enumerators=enumerators(self.code),
-            enums=frozenset(e.enum for all_ in self.code.enumerators.values() for e in all_),
+            enums=frozenset(e.enum for all_ in self.code.enumerators.values() for e in all_)
+            - narrow_enums(self.code).keys(),
             aliases=aliases(self.code),
             messages=self.messages,
             unit=self.unit,

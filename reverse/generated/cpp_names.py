@@ -134,9 +134,17 @@ def enumerators(code: Code) -> dict[str, int]:
     return {n: v for n, vs in values.items() for v in vs if len(vs) == 1 and v is not None}
 
 
-def aliases(code: Code) -> dict[str, Carried]:
+def narrow_enums(code: Code) -> dict[str, Carried | None]:
+    """What the model keeps of the types of enumerations that are said not to be of an int."""
+    enums = {e.enum: e.node.parent for all_of in code.enumerators.values() for e in all_of}
+    bases = {n: b.parent.child_by_field_name("base") for n, b in enums.items() if b and b.parent}
+    kept = {name: carried(base) for name, base in bases.items() if base is not None}
+    return {name: of for name, of in kept.items() if of != Carried(Type("int"))}
+
+
+def aliases(code: Code) -> dict[str, Carried | None]:
     """What the model keeps of the types that the code names, each by one name only."""
-    found: dict[str, Carried] = {}
+    found = narrow_enums(code)
     for name, all_of in code.aliases.items():
         kept = carried(all_of[0].type)
         is_one = len({text_of(alias.type) for alias in all_of}) == 1

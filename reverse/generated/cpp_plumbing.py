@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Container, Iterable, Iterator, Mapping, Sequence
+from functools import partial
 
 from tree_sitter import Node
 
@@ -122,9 +123,8 @@ def _odd_in(
     odd: Iterable[Node] = ()
     why = ""
     if name == owner.name:
-        odd = _not_outside(
-            code, function, _odd_in_constructor(code, owner, function, roles), by_hand
-        )
+        odd = _odd_in_constructor(code, owner, function, roles, by_hand)
+        odd = _not_outside(code, function, odd, by_hand)
         why = "a constructor of generated code only sets up; the model's own is construct()"
         if (told := _odd_priority(code, function, lineage)) is not None:
             yield told, "the mailbox is told of another priority than its most urgent server has"
@@ -197,7 +197,7 @@ def _not_outside(
 
 
 def _odd_in_constructor(
-    code: Code, owner: CppClass, function: CppFunction, roles: Roles
+    code: Code, owner: CppClass, function: CppFunction, roles: Roles, by_hand: Callable[[], Scope]
 ) -> Iterator[Node]:
     """Statements that neither set up anything nor prepare that, or come too late for it."""
     timers = {t.call.node.id for t in timers_of(code, owner, roles)}
@@ -220,8 +220,15 @@ def _odd_in_constructor(
         prepares = prepares or statement.id in roles.asked
         prepares = prepares or _declared_by(statement) in arguments
         waiting.discard(given)
-        if not prepares and not _sets_up(statement, function, roles, timers, variables):
+        observes = partial(_observes, code, function, by_hand)
+        if not prepares and not _sets_up(statement, function, roles, timers, variables, observes):
             yield statement
+
+
+def _observes(
+    code: Code, function: CppFunction, by_hand: Callable[[], Scope], call: CppCall
+) -> bool:
+    return Beside.of(code, function, by_hand()).observes(call)
 
 
 def _begun(constructor: CppFunction) -> frozenset[int]:
@@ -267,6 +274,7 @@ def _sets_up(
     roles: Roles,
     timers: Container[int],
     variables: Container[str],
+    observes: Callable[[CppCall], bool],
 ) -> bool:
     """Whether it is one call that sets something up, whose value may be kept.
 
@@ -285,7 +293,7 @@ def _sets_up(
         case _ if makes(call):
             return call.node.id in timers
         case "onServed":
-            return _hands_on(call, "publishState", None)
+            return _hands_on(call, "publishState", None) or observes(call)
         case "construct":
             given = [*(p.name for p in function.parameters), *dict(arguments_in(function))]
             return _hands_on(call, "construct", given)

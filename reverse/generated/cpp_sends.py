@@ -5,12 +5,13 @@ Whatever else a function does makes it a function of the model, whose body shows
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
 from tree_sitter import Node
 
+from rebsync.model import Type
 from rebsync.names import uncarry
 from rebsync.reserved import RUNTIME_CLASSES, RUNTIME_TOPICS
 from rebsync.reverse.bodies.cpp_mailbox import AT_ONCE
@@ -31,6 +32,7 @@ from rebsync.reverse.generated.send_functions import (
     SendFunction,
     Signed,
     Step,
+    in_order_of_fields,
     is_kept,
 )
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
@@ -75,8 +77,18 @@ def add_sends(
                 continue
             message = publishers[_publisher(call)].message if call.name == "publish" else ""
             post = partial(own_post, code, owner, all_roles, function)
-            odd = _odd_send(function, sends, message, post, fields, signed)
-            odd = odd or [*_misfits(code, function, message, fields), *_rival(sending, function)]
+            assert function.body is not None
+            steps, known = [*_steps(function, post)], fields.get(message)
+            plain = tuple(p.name for p in function.parameters[sends.known is None : -1])
+            given = in_order_of_fields(plain, known or (), steps)
+            wanted = SendFunction(
+                given, message, None if known is None else [*known], message in signed
+            )
+            odd = wanted.odd(steps, function.body)
+            odd = odd or [*_misfits(code, function, given, known or {})]
+            odd = odd or [*_rival(sending, function)]
+            if given != plain:
+                sends = replace(sends, order=tuple(map(plain.index, given)))
             if message and message not in served.servers and sends.server in posted:
                 odd.append(call.node)
                 roles.lost.add(call.node.id)
@@ -106,13 +118,14 @@ def _rival(sending: Sequence[CppFunction], function: CppFunction) -> Iterator[No
         yield part(function.node, "declarator")
 
 
-def _misfits(code: Code, function: CppFunction, message: str, fields: Fields) -> Iterator[Node]:
+def _misfits(
+    code: Code, function: CppFunction, given: Sequence[str], fields: Mapping[str, Type | None]
+) -> Iterator[Node]:
     """The parameters that are not of the types of the message's fields, which would be cut."""
-    types = [*fields.get(message, {}).values()]
-    given = function.parameters[:-1][-len(types) :] if types else ()
-    for type_, parameter in zip(types, given, strict=False):
-        if not is_kept(type_, declared_type(code, parameter.type)):
-            yield parameter.node
+    named_ = {p.name: p for p in function.parameters}
+    for type_, name in zip(fields.values(), given[-len(fields) :], strict=False):
+        if not is_kept(type_, declared_type(code, named_[name].type)):
+            yield named_[name].node
 
 
 def _told(
@@ -181,25 +194,6 @@ def _publisher(call: CppCall) -> str:
     chosen = _chosen(call)
     where = call.arguments[0] if chosen is None else chosen.arguments[0]
     return text_of(where).removeprefix("this->")
-
-
-def _odd_send(
-    function: CppFunction,
-    sends: Sends,
-    message: str,
-    post: Callable[[CppCall], CppPost | None],
-    fields: Fields,
-    signed: Container[str],
-) -> list[Node]:
-    """What a function does besides sending the `message` that its publisher is for.
-
-    `post` tells what a call posts, `signed` are the messages that say who sends them.
-    """
-    *given, _ = [p.name for p in function.parameters]
-    known = list(fields[message]) if message in fields else None
-    wanted = SendFunction(tuple(given[sends.known is None :]), message, known, message in signed)
-    assert function.body is not None
-    return wanted.odd(_steps(function, post), function.body)
 
 
 def _steps(

@@ -110,6 +110,15 @@ class SendFunction:
         return value in waiting and field == dict(zip(self.given, self.fields, strict=True))[value]
 
 
+def in_order_of_fields(
+    given: Sequence[str], fields: Iterable[str], steps: Iterable[tuple[Node, Step]]
+) -> tuple[str, ...]:
+    """Parameters in the order of the fields that they are stored in, if each field has one."""
+    into = {step.field: step.value for _, step in steps if isinstance(step, Filled)}
+    order = tuple(into.get(name, "") for name in fields)
+    return order if sorted(order) == sorted(given) else tuple(given)
+
+
 def is_kept(field: Type | None, type_: Type | None) -> bool:
     """Whether a field has all values of a parameter; a rebec's name is a string."""
     if field is None or type_ is None:

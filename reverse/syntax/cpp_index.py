@@ -37,7 +37,7 @@ from rebsync.reverse.syntax.cpp_declarations import (
     with_values,
 )
 from rebsync.reverse.syntax.cpp_initialisers import initialised_in
-from rebsync.reverse.syntax.cpp_numbers import KnownNumbers
+from rebsync.reverse.syntax.cpp_numbers import KnownNumbers, enumerated
 from rebsync.reverse.syntax.cpp_searches import Searches
 from rebsync.reverse.syntax.cpp_tree import Cpp, markers_above, parse, part, text_of
 from rebsync.source import Source
@@ -308,19 +308,13 @@ class Code:
         return True
 
     def _add_enum(self, cpp: Cpp, node: Node, scope: str) -> None:
-        name, body = node.child_by_field_name("name"), node.child_by_field_name("body")
-        next_: int | None = 0
-        is_plain = _is_of_int(node)
-        for child in body.named_children if body is not None else []:
-            if child.type != "enumerator":
-                continue
-            if (given := child.child_by_field_name("value")) is not None:
-                next_ = KnownNumbers(self.enumerators, self._agreed(), cpp).of(given)
+        name, is_plain = node.child_by_field_name("name"), _is_of_int(node)
+        known = KnownNumbers(self.enumerators, self._agreed(), cpp)
+        for child, number in enumerated(node, known.of):
             own = text_of(part(child, "name"))
-            value = next_ if is_plain else None
+            value = number if is_plain else None
             read = CppEnumerator(own, text_of(name) if name else "", scope, value, cpp, child)
             self.enumerators.setdefault(own, []).append(read)
-            next_ = next_ + 1 if next_ is not None else None
 
     def _add_type(self, cpp: Cpp, type_: Node) -> None:
         """A type that is defined where it is named."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from tree_sitter import Node
@@ -90,6 +90,25 @@ class KnownNumbers:
         if value.type in ("binary_expression", "unary_expression") and made is not self.cpp:
             return None  # a macro: what stands beside it may bind tighter
         return replace(self, asked=self.asked | {name}).of(value)
+
+
+def enumerated(
+    enum: Node, number: Callable[[Node], int | None]
+) -> Iterator[tuple[Node, int | None]]:
+    """The constants of an enumeration with their numbers, of those that are known.
+
+    `number` tells what an expression gives, once the constants before it are taken.
+    """
+    next_: int | None = 0
+    body = enum.child_by_field_name("body")
+    for child in body.named_children if body is not None else []:
+        if child.type == "enumerator":
+            given = child.child_by_field_name("value")
+            value = next_ if given is None else number(given)
+            yield child, value
+            next_ = value + 1 if value is not None else None
+        elif child.type != "comment":  # which of some alternatives counts
+            next_ = None
 
 
 def _unary(node: Node, lookup: Lookup) -> int | None:

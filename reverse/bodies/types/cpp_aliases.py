@@ -4,19 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.reverse.bodies.cpp_idioms import whole
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.effects.cpp_kinds import NOTHING
-from rebsync.reverse.bodies.scope import Meaning
+from rebsync.reverse.bodies.scope import Meaning, Outside
 from rebsync.reverse.bodies.types.cpp_conversions import place_of, type_in
 from rebsync.reverse.bodies.types.cpp_types import Carried
 from rebsync.reverse.bodies.types.cpp_widths import wide_of
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.models.building import bare, is_place
 from rebsync.reverse.syntax.cpp_declarations import CppFunction, CppParameter
+from rebsync.reverse.syntax.cpp_numbers import enumerated
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.constants import constant
 from rebsync.static.types import BOOLEAN, BYTE, INT, SHORT
@@ -26,6 +29,9 @@ _HINT = "say its type: static_cast<int32_t>(...)"
 
 def declares_nothing(reader: CppStatementReader, node: Node) -> bool:
     """Whether a statement only declares something; a type has the name from here on."""
+    if node.type == "enum_specifier":
+        _enumerate(reader, node)
+        return True
     if node.type not in NOTHING:
         return False
     name = node.child_by_field_name("name" if node.type == "alias_declaration" else "declarator")
@@ -34,6 +40,31 @@ def declares_nothing(reader: CppStatementReader, node: Node) -> bool:
         aliases = {**reader.scope.aliases, text_of(name): kept}
         reader.scope = replace(reader.scope, aliases=aliases)
     return True
+
+
+def _enumerate(reader: CppStatementReader, enum: Node) -> None:
+    """Takes the constants of an enumeration of a body, and its name where it is an `int`."""
+    name, base = enum.child_by_field_name("name"), enum.child_by_field_name("base")
+    kept = reader.scope.carried(base) if base is not None else Carried(INT)
+    of, is_int = text_of(name) if name is not None else "", kept == Carried(INT)
+    is_scoped = any(child.type in ("class", "struct") for child in enum.children)
+    for each, number in enumerated(enum, partial(_constant_number, reader)):
+        value: Meaning = Outside()
+        if is_int and number is not None and -(2**31) <= number < 2**31:
+            value = whole(number, reader.cpp.span(each))
+        for spelled in (f"{of}::", "")[: 1 if is_scoped else 2]:
+            reader.meaning(f"{spelled}{text_of(part(each, 'name'))}", value)
+    aliases = {**reader.scope.aliases, of: kept if is_int else None}
+    reader.scope = replace(reader.scope, aliases=aliases)
+
+
+def _constant_number(reader: CppStatementReader, node: Node) -> int | None:
+    """The whole number that an expression always gives."""
+    try:
+        number = constant(replace(reader.expressions, findings=None, inlines=None).read(node))
+    except Unread:
+        return None
+    return number if isinstance(number, int) and not isinstance(number, bool) else None
 
 
 def instantiated(

@@ -29,6 +29,8 @@ def cast(reader: CppExpressionReader, to: Node, operand: Node, node: Node) -> m.
     kept = reader.scope.carried(to)
     if kept is None or kept.type.dimensions:
         raise reader.unread(node, f'the model has no type "{text_of(to)}"')
+    if (kept.bits or kept.wide) and not reader.scope.open:
+        raise reader.unread(node, f'"{text_of(to)}" is none of the model\'s types')
     if kept.type == BOOLEAN:
         return reader.condition(operand)
     value = reader.read(operand)

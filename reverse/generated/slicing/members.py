@@ -146,7 +146,7 @@ def _sliced(slice_: _Slice) -> _Slice:
 def _is_of_another(code: Code, owner: CppClass, name: Node) -> bool:
     """Whether a name stands in a class beside the one whose member has it, as one of its own."""
     above = name.parent
-    is_part = above is not None and above.type == "field_expression"
+    is_part = above is not None and above.child_by_field_name("field") == name
     if is_part and above and text_of(part(above, "argument")) != "this":
         return False
     family = {c.name for c in _family(code, owner)}

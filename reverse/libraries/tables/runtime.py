@@ -29,7 +29,8 @@ _IN_BOTH = {
 
 def _cpp() -> dict[str, Routine]:
     clock = {n: Routine(Kind.TOLD, result=r, does=Effect.CLOCK) for n, r in _CLOCK.items()}
-    return {**_IN_BOTH, **clock, "isA": Routine(Kind.TOLD, ("object", "class"))}
+    unit = {"timeUnit": Routine(does=Effect.NONE)}
+    return {**_IN_BOTH, **clock, **unit, "isA": Routine(Kind.TOLD, ("object", "class"))}
 
 
 # The same in Python: what gives times of the model, which are whole numbers.
