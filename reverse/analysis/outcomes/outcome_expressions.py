@@ -119,6 +119,8 @@ class OutcomeExpressions:
                 self.undefined.pointee(value, facts)
             case e.Convert(_, _, t.Text()):
                 self.undefined.text(value, facts)
+            case e.Convert(_, _, t.Reference()):
+                self.undefined.lifetimes.check(value, facts)
             case e.LibraryReference(name):
                 if acts := self.notes.table.function(name).acts:
                     self.notes.problem(value, f'"{name}": {acts}')
