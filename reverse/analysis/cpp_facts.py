@@ -180,7 +180,13 @@ class CppFacts:
     @cached_property
     def moved_classes(self) -> frozenset[str]:
         """The classes whose objects may be moved from: copied, handed to libraries, or elements."""
-        types = (type_ for f in self._functions for n in walk(f) for type_ in _moved(n))
+        handed = (type_ for f in self._functions for n in walk(f) for type_ in _handed(n))
+        return self.copied_classes | {type_.name for type_ in handed if isinstance(type_, t.Record)}
+
+    @cached_property
+    def copied_classes(self) -> frozenset[str]:
+        """The classes whose objects are copied or moved part by part, or are elements."""
+        types = (type_ for f in self._functions for n in walk(f) for type_ in _copied(n))
         return frozenset(type_.name for type_ in types if isinstance(type_, t.Record))
 
     @property
@@ -247,11 +253,12 @@ def _parts(program: Program, of: e.Expression) -> Iterator[e.Attribute]:
 
 
 def without_moved(facts: Facts, node: Node | s.Body) -> Facts:
-    """The facts that are left where nodes leave some pointers without an object."""
+    """The facts that are left where pointers lose their objects, and names their values."""
     for each in walk(node):
         for of in moved_out_by(each):
             facts = without(facts, of)
-        facts = facts.difference(IsBound(of) for of in map(bare, ended_by(each)))
+        unbound = (each.target,) if isinstance(each, s.Delete) else map(bare, ended_by(each))
+        facts = facts.difference(IsBound(of) for of in unbound)
     return facts
 
 
@@ -274,17 +281,18 @@ def moved_out_by(node: object) -> Iterator[e.Expression]:
             pass
 
 
-def _moved(node: Node) -> Iterator[t.Type]:
-    """The types of what a node may move from."""
-    match node:
-        case e.Copy(of) | e.Move(of):
-            yield getattr(of, "type", t.UNKNOWN)
-        case s.Call(_, s.LibraryCallee(), arguments):
-            values = (a.value for a in arguments)
-            targets = (v.target if isinstance(v, e.AddressOf) else v for v in values)
-            yield from (getattr(v, "type", t.UNKNOWN) for v in targets)
-        case _:
-            pass
+def _handed(node: Node) -> Iterator[t.Type]:
+    """The types of what a node hands to a library, which may move from it."""
+    if isinstance(node, s.Call) and isinstance(node.callee, s.LibraryCallee):
+        values = (a.value for a in node.arguments)
+        targets = (v.target if isinstance(v, e.AddressOf) else v for v in values)
+        yield from (getattr(v, "type", t.UNKNOWN) for v in targets)
+
+
+def _copied(node: Node) -> Iterator[t.Type]:
+    """The types of what a node may copy, or move, part by part."""
+    if isinstance(node, e.Copy | e.Move):
+        yield getattr(node.operand, "type", t.UNKNOWN)
     match getattr(node, "type", None):
         case t.Container(_, elements):
             yield from elements

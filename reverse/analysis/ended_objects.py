@@ -31,9 +31,8 @@ def ended_by(node: object) -> Iterator[e.Expression]:
             yield of
         case s.Call(_, s.LibraryCallee(name, owner), (s.CallArgument(of), *_)):
             last = name.partition("<")[0].rpartition("::")[2]
-            is_given = (
-                last in _OWNERS if owner is None else last == "reset" and _owns(_type_of(owner))
-            )
+            is_owner = last == "reset" and owner is not None and _owns(_type_of(owner))
+            is_given = is_owner or (owner is None and last in _OWNERS)
             yield from [of] if is_given and _is_raw(of) else []
         case _:
             pass

@@ -6,13 +6,16 @@ Locals are followed by facts. A member or a variable of a file has to be stored 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from rebsync.reverse.analysis.ended_objects import ended_by
 from rebsync.reverse.analysis.facts import Facts, IsBound, bare
 from rebsync.reverse.analysis.problems import NOTHING_THERE, ProblemNotes
 from rebsync.reverse.analysis.python.call_binding import bound
-from rebsync.reverse.analysis.stores import CallResult, ObjectValue, Value, key_of
+from rebsync.reverse.analysis.stores import AnyValue, CallResult, ObjectValue, Stored, Value, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.program import FunctionKind
 from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries.outcome_classes import TERMINATES
@@ -43,9 +46,8 @@ class Lifetimes:
             lives = IsBound(pointer) in facts
         else:
             key = key_of(pointer, function.name)
-            lives = (
-                isinstance(pointer, e.Temporary) or key not in self._origins.of_cpp.left_dangling
-            )
+            dangling = self._origins.of_cpp.left_dangling
+            lives = isinstance(pointer, e.Temporary) or key not in dangling
         return lives and self._is_new(pointer, function.name, is_array, 0)
 
     def _is_element(self, pointer: e.Local) -> bool:
@@ -76,14 +78,51 @@ class Lifetimes:
                 return self._is_given_new(name, function, is_array, depth)
             case e.Captured() | e.Global() | e.Attribute() if depth:
                 return False  # it has two names
+            case e.Attribute(of) if self._is_copied(of):
+                return False
             case e.Temporary() | e.Local() | e.Captured() | e.Global() | e.Attribute():
-                key = key_of(value, function)
-                stored = self._origins.graph.stores.of(key) if key and depth <= _DEEPEST else []
+                stored = self._stored(value, function) if depth <= _DEEPEST else []
                 return bool(stored) and all(
                     self._is_new(each, around, is_array, depth + 1) for around, each in stored
                 )
             case _:
                 return False
+
+    def _stored(self, value: e.Expression, function: str) -> list[Stored]:
+        """What is stored in a variable, but for what libraries do that get its address."""
+        key, kept = key_of(value, function), list[Stored]()
+        stored = [] if key is None else self._origins.graph.stores.of(key)
+        handed = {
+            around: sum(key_of(of, around) == key for of in self._handed(around))
+            for around in {around for around, _ in stored}
+        }
+        for around, each in stored:
+            if isinstance(each, AnyValue) and handed[around]:
+                handed[around] -= 1
+            else:
+                kept.append((around, each))
+        return kept
+
+    def _handed(self, function: str) -> Iterator[e.Expression]:
+        """What a function hands to libraries of others by its address, or what is not read."""
+        nodes = list(walk(self._program.function(function)))
+        stores = (n for n in nodes if isinstance(n, s.Assign))
+        kept: dict[e.Expression, e.Expression] = {n.target: n.value for n in stores}
+        for node in nodes:
+            match node:
+                case s.Call(_, s.LibraryCallee(name), arguments) if not name.startswith("std::"):
+                    values = (kept.get(a.value, a.value) for a in arguments)
+                    yield from (v.target for v in values if isinstance(v, e.AddressOf))
+                case s.Unsupported(writes=writes):  # which may do anything, where it stands
+                    yield from writes
+                case _:
+                    pass
+
+    def _is_copied(self, value: e.Expression) -> bool:
+        """Whether objects of a class are copied with the pointers that they have."""
+        type_ = getattr(value, "type", t.UNKNOWN)
+        type_ = type_.to if isinstance(type_, t.Reference) else type_
+        return isinstance(type_, t.Record) and type_.name in self._origins.of_cpp.copied_classes
 
     def _parameters(self, function: str) -> set[str]:
         return {p.name for p in self._program.function(function).parameters}
