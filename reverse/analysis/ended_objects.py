@@ -42,13 +42,14 @@ def left_dangling(program: Program) -> frozenset[Key]:
     """The members and variables of files whose object may end twice.
 
     Something else is stored in the others before the function that ended it is left, or one
-    constructor or destructor alone ends it.
+    constructor or destructor, or `main`, alone ends it.
     """
     found = Counter[Key]()
     for function in map(program.function, program.functions):
         left = set[Key]()
         left |= _left(function.body, function.name, frozenset(), left)
-        found.update(dict.fromkeys(left, 1 if function.kind in _ONCE else 2))
+        is_once = function.kind in _ONCE or function.name.partition(" ")[0] == "main"
+        found.update(dict.fromkeys(left, 1 if is_once else 2))
     return frozenset(key for key, count in found.items() if count > 1)
 
 
