@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 
-from rebsync.reverse.analysis.facts import Facts, without
+from rebsync.reverse.analysis.ended_objects import ended_by, left_dangling
+from rebsync.reverse.analysis.facts import Facts, IsBound, bare, without
 from rebsync.reverse.analysis.stores import Key, Stored, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
@@ -15,7 +16,7 @@ from rebsync.reverse.ir.program import Function, FunctionKind, Program
 from rebsync.reverse.ir.walk import Node, walk
 from rebsync.reverse.libraries.client_times import is_of_times
 from rebsync.reverse.libraries.cpp import keeping_arguments, logging
-from rebsync.reverse.libraries.size_effects import RELEASING
+from rebsync.reverse.libraries.size_effects import RELEASING, SWAPPING
 
 # The types of parameters, by how the form writes those of C++.
 _TYPES = (("float", float), ("truth", bool), ("i", int), ("text", str), ("bytes", str))
@@ -125,7 +126,7 @@ class CppFacts:
         """By each pointer the functions that leave it without an object, other than by `=`."""
         found: dict[Key, frozenset[str]] = {}
         for function in self._functions:
-            for key in (k for n in walk(function) for k in emptied_by(n, function.name)):
+            for key in emptied_by(self._program, walk(function), function.name):
                 found[key] = found.get(key, frozenset()) | {function.name}
         return found
 
@@ -172,9 +173,20 @@ class CppFacts:
         return {name: call for name, call in found.items() if every[name] == 1}
 
     @cached_property
+    def left_dangling(self) -> frozenset[Key]:
+        """The members and variables of files whose object may end twice."""
+        return left_dangling(self._program)
+
+    @cached_property
     def moved_classes(self) -> frozenset[str]:
         """The classes whose objects may be moved from: copied, handed to libraries, or elements."""
-        types = (type_ for f in self._functions for n in walk(f) for type_ in _moved(n))
+        handed = (type_ for f in self._functions for n in walk(f) for type_ in _handed(n))
+        return self.copied_classes | {type_.name for type_ in handed if isinstance(type_, t.Record)}
+
+    @cached_property
+    def copied_classes(self) -> frozenset[str]:
+        """The classes whose objects are copied or moved part by part, or are elements."""
+        types = (type_ for f in self._functions for n in walk(f) for type_ in _copied(n))
         return frozenset(type_.name for type_ in types if isinstance(type_, t.Record))
 
     @property
@@ -204,18 +216,49 @@ class CppFacts:
                     pass
 
 
-def emptied_by(node: object, function: str) -> Iterator[Key]:
-    """The pointers that a node of a function leaves without an object."""
-    for of in moved_out_by(node):
-        key = key_of(of, function)
-        if key is not None:
-            yield key
+def emptied_by(program: Program, nodes: Iterable[Node], function: str) -> Iterator[Key]:
+    """The pointers that some nodes of a function leave without an object, in objects too."""
+    for of in (of for node in nodes for of in moved_out_by(node)):
+        for part in (of, *parts_moved(program, of, function)):
+            key = key_of(part, function)
+            if key is not None:
+                yield key
 
 
-def without_moved(facts: Facts, node: Node) -> Facts:
-    """The facts that are left where a node leaves some pointers without an object."""
-    for of in (of for each in walk(node) for of in moved_out_by(each)):
-        facts = without(facts, of)
+def parts_moved(program: Program, of: e.Expression, function: str) -> Iterator[e.Attribute]:
+    """The members of an object that is moved from, each of which is ([class.copy.ctor]).
+
+    Of a variable that nothing behind it in its function names there are none: it only ends.
+    """
+    if isinstance(of, e.Local) and not isinstance(of.type, t.Reference):
+        nodes = list(walk(program.function(function)))
+        is_again = any(isinstance(n, s.Loop | s.ForEach) for n in nodes)
+        at = next((i for i, n in enumerate(nodes) if isinstance(n, e.Move) and n.operand is of), 0)
+        ends = sum(isinstance(n, s.Destroy) and n.target == of for n in nodes[at:])
+        if at and not is_again and nodes[at:].count(of) == 1 + ends:
+            return
+    yield from _parts(program, of)
+
+
+def _parts(program: Program, of: e.Expression) -> Iterator[e.Attribute]:
+    type_ = getattr(of, "type", t.UNKNOWN)
+    waiting = [type_.name] if isinstance(type_, t.Record) else []
+    while waiting:
+        class_ = program.classes.get(waiting.pop())
+        for field in class_.fields if class_ is not None else ():
+            part = e.Attribute(of, field.name, field.type, False)
+            yield part
+            yield from _parts(program, part)
+        waiting += [] if class_ is None else [base for base in class_.bases if base is not None]
+
+
+def without_moved(facts: Facts, node: Node | s.Body) -> Facts:
+    """The facts that are left where pointers lose their objects, and names their values."""
+    for each in walk(node):
+        for of in moved_out_by(each):
+            facts = without(facts, of)
+        unbound = (each.target,) if isinstance(each, s.Delete) else map(bare, ended_by(each))
+        facts = facts.difference(IsBound(of) for of in unbound)
     return facts
 
 
@@ -228,25 +271,28 @@ def moved_out_by(node: object) -> Iterator[e.Expression]:
             yield of
         case s.Call(_, s.LibraryCallee("delete[]"), (s.CallArgument(of),)):
             yield of
-        case s.Call(_, s.LibraryCallee(name, of), values) if of is not None:
+        case s.Call(_, s.LibraryCallee(name, of), values):
             last = name.rpartition("::")[2]
-            if last in RELEASING and not (values and last == "reset"):
+            if of is not None and last in RELEASING and not (values and last == "reset"):
                 yield of
+            if last in SWAPPING:
+                yield from (v.value.target for v in values if isinstance(v.value, e.AddressOf))
         case _:
             pass
 
 
-def _moved(node: Node) -> Iterator[t.Type]:
-    """The types of what a node may move from."""
-    match node:
-        case e.Copy(of) | e.Move(of):
-            yield getattr(of, "type", t.UNKNOWN)
-        case s.Call(_, s.LibraryCallee(), arguments):
-            values = (a.value for a in arguments)
-            targets = (v.target if isinstance(v, e.AddressOf) else v for v in values)
-            yield from (getattr(v, "type", t.UNKNOWN) for v in targets)
-        case _:
-            pass
+def _handed(node: Node) -> Iterator[t.Type]:
+    """The types of what a node hands to a library, which may move from it."""
+    if isinstance(node, s.Call) and isinstance(node.callee, s.LibraryCallee):
+        values = (a.value for a in node.arguments)
+        targets = (v.target if isinstance(v, e.AddressOf) else v for v in values)
+        yield from (getattr(v, "type", t.UNKNOWN) for v in targets)
+
+
+def _copied(node: Node) -> Iterator[t.Type]:
+    """The types of what a node may copy, or move, part by part."""
+    if isinstance(node, e.Copy | e.Move):
+        yield getattr(node.operand, "type", t.UNKNOWN)
     match getattr(node, "type", None):
         case t.Container(_, elements):
             yield from elements

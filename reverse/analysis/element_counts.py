@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 
+from rebsync.reverse.analysis.cpp_facts import parts_moved
 from rebsync.reverse.analysis.foreign_emptying import ForeignEmptying
 from rebsync.reverse.analysis.held_values import held_by, is_own
 from rebsync.reverse.analysis.origins import FunctionOrigin, LibraryOrigin, Origin, Origins
@@ -279,6 +280,7 @@ class ElementCounts:
         match node:
             case e.Move(of):
                 yield of
+                yield from parts_moved(self.graph.program, of, function)
             case s.Delete(e.Index(of)) | s.Assign(e.Index(of, e.Slice())):
                 yield of
             case s.CompoundAssign(target, operator) if operator in _LESSENING:

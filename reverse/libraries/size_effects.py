@@ -60,6 +60,7 @@ SEARCHING = frozenset(
 )
 # Methods of smart pointers that leave these without an object; `reset` does without an argument.
 RELEASING = frozenset({"reset", "release", "swap"})
+SWAPPING = frozenset({"swap", "exchange"})  # what they get by its address may lead elsewhere
 LEADING_TO_FIRST = frozenset({"begin", "cbegin", "rbegin", "crbegin", "data"})
 MAKING = frozenset({"make_unique", "make_shared", "allocate_shared", "make_optional", "new"})
 # Functions of C that look at a text, which must be there.

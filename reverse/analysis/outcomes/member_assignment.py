@@ -22,7 +22,7 @@ from rebsync.reverse.analysis.stores import (
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.program import Function, FunctionKind
-from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.ir.walk import Node, walk
 from rebsync.reverse.libraries.cpp import named, running_callbacks, waiting
 from rebsync.reverse.libraries.cpp_calls import first_called
 from rebsync.reverse.libraries.routines import ASKING
@@ -79,7 +79,7 @@ class MemberAssignment:
     def _only_starts_with(self, key: Key, function: Function, depth: int) -> bool:
         """Whether a function is a constructor that stores nothing but before it asks for calls."""
         body = function.body
-        firsts = (i for i, n in enumerate(body) if key in dict(_stores(n, function.name)))
+        firsts = (i for i, n in enumerate(body) if key in dict(self._stores(n, function.name)))
         at = next(firsts, len(body)) + 1
         asks = any(isinstance(n, e.Closure) for n in walk(body[:at]))
         is_first = function.kind is FunctionKind.CONSTRUCTOR and not asks
@@ -196,12 +196,26 @@ class MemberAssignment:
 
     def _empties(self, key: Key, body: s.Body, function: str, depth: int) -> bool:
         """Whether some statements may store nothing under a name."""
-        stores = (each for node in walk(body) for each in _stores(node, function))
+        stores = (each for node in walk(body) for each in self._stores(node, function))
         return any(
             self._is_nothing((function, value), depth + 1)
             for other, value in stores
             if other == key
         )
+
+    def _stores(self, node: Node, function: str) -> Iterator[tuple[Key, Value]]:
+        """The variables that a node stores in, with what it stores there."""
+        yield from ((key, _NULL) for key in emptied_by(self._program, (node,), function))
+        match node:
+            case s.Assign(target, value) | s.Declare(target, _, value) if value is not None:
+                stored: Value = value
+            case s.Call(target) if target is not None:
+                stored = CallResult(node)
+            case _:
+                return
+        key = key_of(target, function)
+        if key is not None:
+            yield key, stored
 
 
 def _is_in(place: Span, path: str) -> bool:
@@ -245,21 +259,6 @@ def _serves(node: object) -> bool:
 def last_name(node: object) -> str:
     callee = node.callee if isinstance(node, s.Call) else None
     return getattr(callee, "name", "").partition("<")[0].rpartition("::")[2]
-
-
-def _stores(node: object, function: str) -> Iterator[tuple[Key, Value]]:
-    """The variables that a node stores in, with what it stores there."""
-    yield from ((key, _NULL) for key in emptied_by(node, function))
-    match node:
-        case s.Assign(target, value) | s.Declare(target, _, value) if value is not None:
-            stored: Value = value
-        case s.Call(target) if target is not None:
-            stored = CallResult(node)
-        case _:
-            return
-    key = key_of(target, function)
-    if key is not None:
-        yield key, stored
 
 
 def bare(value: e.Expression) -> e.Expression:

@@ -112,11 +112,11 @@ class OutcomeCalls:
             return facts
         return stored(facts, node.target) | {IsThere(node.target), Holds(node.target)}
 
-    def destroy(self, node: s.Destroy) -> None:
+    def destroy(self, node: s.Destroy, facts: Facts) -> None:
         """Notes what the end of an object may do."""
-        if node.class_name is not None:
-            for name in self._answers(node.class_name, ImplicitCall.DESTROY):
-                self._enters(node, name)
+        self.expressions.undefined.lifetimes.check(node, facts)
+        for name in self._answers(node.class_name or "", ImplicitCall.DESTROY):
+            self._enters(node, name)
 
     def entered(self, context: e.Expression, facts: Facts) -> None:
         """Notes what entering a context of a library may do."""

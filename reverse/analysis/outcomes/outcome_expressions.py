@@ -119,6 +119,8 @@ class OutcomeExpressions:
                 self.undefined.pointee(value, facts)
             case e.Convert(_, _, t.Text()):
                 self.undefined.text(value, facts)
+            case e.Convert(_, _, t.Reference()):
+                self.undefined.lifetimes.check(value, facts)
             case e.LibraryReference(name):
                 if acts := self.notes.table.function(name).acts:
                     self.notes.problem(value, f'"{name}": {acts}')
@@ -349,8 +351,13 @@ class OutcomeExpressions:
         """Notes what storing an element may do: a mapping takes any key."""
         self.check(target.object, facts)
         self.types.stores(target, facts)
-        if not isinstance(target.index, e.Slice):
-            self.check(target.index, facts)
+        match target.index:
+            case e.Slice(_, _, None | e.Literal(None | 1)):
+                pass
+            case e.Slice():
+                self.notes.fails(target, "has another number of elements")
+            case index:
+                self.check(index, facts)
         kinds = self.origins.of(target.object, self.function)
         if not self._is_of(kinds, "dict", "defaultdict"):
             self._reads_at(target, facts)

@@ -109,7 +109,7 @@ class OutcomeWalk:
             case s.Construct():
                 return self._calls.construct(node, facts)
             case s.Destroy():
-                self._calls.destroy(node)
+                self._calls.destroy(node, facts)
                 return without_shared(without_moved(facts, node))
             case s.Evaluate(value):
                 self.value(value, facts)
@@ -210,9 +210,8 @@ class OutcomeWalk:
             case _ if self._is_of_model(target):
                 self.notes.problem(target, "this is stored in what is the model's")
             case e.Attribute(holder) | e.Dereference(holder):
-                is_attribute = isinstance(target, e.Attribute)
-                self.value(holder if is_attribute else target, facts)
-                if is_attribute:
+                self.value(holder if isinstance(target, e.Attribute) else target, facts)
+                if isinstance(target, e.Attribute):
                     asked = "asks None for an attribute"
                     self._expressions.none.check(holder, target, facts, asked)
                     self._expressions.types.sets(target, value, facts)
@@ -354,6 +353,7 @@ class OutcomeWalk:
 
     def _changed(self, facts: Facts, body: s.Body) -> Facts:
         """What is still known once a body may have run, some of it or all, any number of times."""
+        facts = without_moved(facts, body)
         for node in walk(body):
             target = getattr(node, "target", None)
             if target is not None and not isinstance(node, e.AddressOf):

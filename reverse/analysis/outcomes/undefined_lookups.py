@@ -9,6 +9,7 @@ from collections.abc import Sequence
 
 from rebsync.reverse.analysis.facts import Facts
 from rebsync.reverse.analysis.outcomes.element_bounds import ElementBounds
+from rebsync.reverse.analysis.outcomes.lifetimes import Lifetimes
 from rebsync.reverse.analysis.outcomes.null_pointers import NullPointers
 from rebsync.reverse.analysis.problems import NOTHING_THERE, ODD_FORMAT, ProblemNotes
 from rebsync.reverse.analysis.python.format_strings import conversions
@@ -32,6 +33,7 @@ class UndefinedLookups:
         self._notes = notes
         self._bounds = bounds
         self.pointers = NullPointers(notes, bounds)
+        self.lifetimes = Lifetimes(notes)
 
     def element(self, value: e.Index, facts: Facts) -> None:
         """Notes an element that a container may not have."""
@@ -57,6 +59,7 @@ class UndefinedLookups:
         self, node: s.Call, outcome: CallOutcome, of: e.Expression | None, facts: Facts
     ) -> None:
         """Notes what a call of a library takes out of what is empty, or for a text."""
+        self.lifetimes.check(node, facts)
         name = getattr(node.callee, "name", "")
         values = [a.value for a in node.arguments]
         last = name.rpartition("::")[2]

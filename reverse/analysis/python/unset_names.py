@@ -27,7 +27,7 @@ _CALLED = frozenset({FunctionKind.FUNCTION, FunctionKind.GENERATOR, FunctionKind
 
 
 class UnsetNames:
-    """The names of one function, in Python."""
+    """The names of one function: in C++ its parameters alone."""
 
     def __init__(self, notes: ProblemNotes) -> None:
         self._notes = notes
@@ -37,7 +37,7 @@ class UnsetNames:
     def first(self) -> Facts:
         """What is known at the first statement of the function."""
         if self._notes.table.language is not Language.PYTHON:
-            return frozenset()
+            return frozenset(IsBound(e.Local(p.name, p.type)) for p in self._function.parameters)
         names = (IsBound(e.Local(p.name)) for p in self._function.parameters)
         return frozenset({_STARTED, *names})
 

@@ -176,7 +176,7 @@ def created(
         by_arguments(context, target, type_, named(nodes[0]) if nodes else [], place)
     last = context.out[-1] if len(context.out) > mark else None
     if isinstance(last, s.Construct) or (
-        isinstance(last, s.Assign) and isinstance(last.value, e.Copy | e.BuildRecord)
+        isinstance(last, s.Assign) and isinstance(last.value, e.Copy | e.Move | e.BuildRecord)
     ):
         return Value(target, pointer)
     raise Unlowered("a new object that is made in parts")

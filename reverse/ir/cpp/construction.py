@@ -136,7 +136,7 @@ def _copied_parts(
         if inner is not None:
             construct(context, to, inner, [from_], place)
         else:
-            copy = as_value(context, replace(from_, is_lvalue=True), place)
+            copy = as_value(context, from_, place)
             context.emit(s.Assign(to, copy, place))
 
 

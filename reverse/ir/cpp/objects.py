@@ -65,6 +65,8 @@ def as_value(context: Context, value: Value, place: Span) -> e.Expression:
     match value.type:
         case t.Record() | t.Container() | t.Array() | t.Optional() | t.RosMessage() | t.Unknown():
             return _copied(context, value, place)
+        case t.Reference() if value.type.ownership.value and not value.is_lvalue:
+            return e.Move(value.expression, value.type, place)
         case _:
             return value.expression
 
@@ -77,7 +79,8 @@ def is_xvalue(value: Value) -> bool:
 
 def _copied(context: Context, value: Value, place: Span) -> e.Expression:
     if copies_trivially(context.world, value.type):
-        return e.Copy(value.expression, value.type, place)
+        made = e.Copy if value.is_lvalue else e.Move
+        return made(value.expression, value.type, place)
     owner = class_of(context, value.type)
     if owner is None:
         return _copied_elements(context, value, place)
@@ -324,5 +327,5 @@ def assigned_memberwise(
         if inner is not None:
             _assigned_part(context, inner, to, Value(from_, type_, value.is_lvalue), place)
         else:
-            copy = as_value(context, Value(from_, type_, is_lvalue=True), place)
+            copy = as_value(context, Value(from_, type_, value.is_lvalue), place)
             context.emit(s.Assign(to, copy, place))

@@ -89,8 +89,9 @@ FUNCTIONS = (
     Rule(Effect.CHANGES, "close fcntl fclose ioctl open socket write"),
     # What ends the program, or checks that it goes on.
     Rule(Effect.ENDS, "exit _exit abort quick_exit terminate kill raise"),
+    Rule(Effect.ENDS, "__builtin_trap __builtin_unreachable unreachable"),
     Rule(Effect.ENDS, python="sys.exit builtins.exit builtins.quit", kind=Kind.EXIT),
-    Rule(Effect.LEAVES, "longjmp fork execv execvp"),
+    Rule(Effect.LEAVES, "longjmp fork execv execvp alarm"),
     Rule(Effect.CHECKS, "assert BOOST_ASSERT", kind=Kind.CHECK),
 )
 METHODS = (
