@@ -20,7 +20,7 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.generated.cpp_names import declared_type
 from rebsync.reverse.generated.cpp_parameters import deciding_parameter, is_own_parameter
 from rebsync.reverse.generated.cpp_roles import parameters_of
-from rebsync.reverse.generated.cpp_timers import MAKES, makes
+from rebsync.reverse.generated.cpp_timers import MAKES, has_period, makes
 from rebsync.reverse.generated.parameters import READS
 from rebsync.reverse.generated.ros2_words import arguments_in
 from rebsync.reverse.generated.slicing.publishers import OFFERS, is_free
@@ -186,7 +186,9 @@ class Beside:
             arguments = arguments[2:]
         if len(arguments) < 2 or inside(arguments[0], "lambda_expression", "assignment_expression"):
             return False
-        return self._is_calm(arguments[1:])
+        owner = self.code.classes.get(self.function.owner)
+        is_seldom = owner is not None and has_period(self.code, owner, self.function.cpp, call)
+        return is_seldom and self._is_calm(arguments[1:])
 
     def _is_calm(self, callback: list[Node] | tuple[Node, ...]) -> bool:
         """Whether what is called back touches nothing of the model: a lambda, or a method."""

@@ -20,6 +20,7 @@ from rebsync.reverse.bodies.subscripts import untested
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.cpp_idle import working
 from rebsync.reverse.generated.cpp_roles import Roles, call_in
+from rebsync.reverse.libraries.generated_calls import is_period
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
@@ -89,8 +90,17 @@ def idle_timers(code: Code, owner: CppClass) -> Iterator[CppCall]:
     for function in code.functions_of(owner):
         for call in code.calls_of(function):
             body = _called_back(code, owner, call)[2] if makes(call) else None
-            if body is not None and named(body) and not working(body):
+            is_seldom = makes(call) and has_period(code, owner, function.cpp, call)
+            if is_seldom and body is not None and named(body) and not working(body):
                 yield call
+
+
+def has_period(code: Code, owner: CppClass, cpp: Cpp, call: CppCall) -> bool:
+    """Whether a timer's period is known to leave the thread that calls back time for others."""
+    given = _arguments(call)
+    lasts = _lasting(code, owner, cpp, given[0]) if given else None
+    seconds = _seconds(*lasts) if lasts is not None else None
+    return seconds is not None and is_period(seconds)
 
 
 def _arguments(call: CppCall) -> list[Node]:
@@ -134,8 +144,9 @@ def _timer(
     name, lambda_, body, flags = _called_back(code, owner, call)
     if lasts is None or (flags and call.name.removeprefix("rclcpp::").startswith("create_")):
         return None
-    if body is not None and named(body) and not working(body):
-        return None  # it only logs
+    is_logging = body is not None and bool(named(body)) and not working(body)
+    if is_logging and has_period(code, owner, function.cpp, call):
+        return None
     own = next((f for f in code.functions_of(owner) if f.name == name), None)
     one_shot = text_of(flags[0]) if flags else "false"
     if (lambda_ is None and own is None) or one_shot not in ("true", "false") or len(flags) > 1:
@@ -264,10 +275,9 @@ def sent_later(timer: Timer, server: str, scope: Scope) -> m.Statement:
 
 def _time(timer: Timer, scope: Scope) -> m.Expression:
     cpp, node = timer.function.cpp, timer.seconds
-    literal = _LITERAL.match(text_of(node))
-    if node.type == "number_literal" or literal is not None:
-        number = numeral(literal[1] if literal else text_of(node))
-        units = number.exact * timer.scale / scope.unit if number is not None else None
+    if node.type == "number_literal" or _is_span(node):
+        seconds = _seconds(node, timer.scale)
+        units = seconds / scope.unit if seconds is not None else None
         if units is None or units.denominator != 1:
             why = f"{text_of(node)} s is no multiple of the model's unit of time"
             raise Unread(cpp.span(node), why, "change `time_unit`")
@@ -278,6 +288,13 @@ def _time(timer: Timer, scope: Scope) -> m.Expression:
     read = reader.read(node)
     untested(reader.subscripts)
     return read
+
+
+def _seconds(node: Node, scale: Fraction) -> Fraction | None:
+    """How many seconds a number of a unit, or with a unit, are; None of what is no number."""
+    literal = _LITERAL.match(text_of(node))
+    number = numeral(literal[1] if literal else text_of(node))
+    return number.exact * scale if number is not None else None
 
 
 def with_rearming(body: m.Block, again: m.Statement) -> m.Block:

@@ -5,6 +5,8 @@ Readers of generated code compare with these; what the calls are for is in the t
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 # What makes a publisher: of ROS 1, then of ROS 2 in a node and beside one.
 PUBLISHER_OF_ROS_1 = "rospy.Publisher"
 PUBLISHER_OF_NODE = "self.create_publisher"
@@ -23,3 +25,8 @@ SUBSCRIBES = r"\brospy\.Subscriber\(|\bcreate_subscription\("
 DURATIONS = frozenset({"rospy.Duration", "rospy.Duration.from_sec"})
 PARAMETER_OF_ROS_1 = "rospy.get_param"
 LOGGER = "rclpy.logging.get_logger"
+
+
+def is_period(seconds: Fraction | float) -> bool:
+    """Whether a timer of this period leaves time for others, and ticks at all."""
+    return 0.001 <= seconds <= 1e6

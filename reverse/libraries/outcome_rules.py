@@ -66,6 +66,7 @@ class Raises(Enum):
     BEYOND_SPAN = "seconds that may be more than 32 bits have"
     NEGATIVE_PAIR = "two numbers, of which the first one may be negative"
     NO_RATE = "a number that may not be greater than zero"
+    NO_NAME = "a text of the source that is no name of ROS"
 
 
 @dataclass(frozen=True, slots=True)

@@ -107,6 +107,12 @@ THROWN = (
         raises="std::filesystem::filesystem_error",
         when=Raises.NO_ERROR_CODE,
     ),
+    OutcomeRule(
+        "ros::NodeHandle ros::names::resolve ros::names::append ros::names::remap",
+        raises="ros::InvalidNameException",
+        acts="nothing is known of it",
+        when=Raises.NO_NAME,
+    ),
     OutcomeRule("boost::lexical_cast", raises="boost::bad_lexical_cast"),
     OutcomeRule("boost::numeric_cast", raises="boost::numeric::bad_numeric_cast"),
     OutcomeRule("boost::any_cast", raises="boost::bad_any_cast"),

@@ -83,6 +83,10 @@ _ONLY_LOOKS = frozenset(
 _SCOPES = frozenset({"PRIVATE", "PUBLIC", "INTERFACE"})
 _ORDERS = _SCOPES | {"AFTER", "BEFORE", "SYSTEM"}
 _DEFINING = "COMPILE_DEFINITIONS"
+_DEFAULT_LANGUAGES = frozenset({"C", "CXX"})
+_ABOUT_PROJECT = frozenset(
+    {"VERSION", "DESCRIPTION", "HOMEPAGE_URL", "COMPAT_VERSION", "SPDX_LICENSE"}
+)
 _MESSAGES = frozenset({"rosidl_generate_interfaces", "add_message_files"})
 _MESSAGE = re.compile(r"(?:.*/)?(\w+)\.msg")
 
@@ -101,6 +105,8 @@ def facts_of_build(source: Source, package: str) -> Iterator[Fact]:
     own = {argument.text for command, _ in commands for argument in command.arguments}
     projects = (c.arguments[0].text for c, _ in commands if c.name == "project" and c.arguments)
     project = next(projects, "")
+    for span, language in _not_enabled(commands):
+        yield Fact("step of the build", "", f"project without {language}", "given", source, span)
     lists = ConstantLists(as_written, _sets_what_it_names)
     caches = {*_CACHES, *_found_caches(commands)}
     for command, condition in commands:
@@ -298,6 +304,32 @@ def _included(command: Command, words: Sequence[str], own: Collection[str]) -> I
             continue
         folder = _OWN_FOLDER.sub("", wrapped[2] if wrapped is not None else word).rstrip("/")
         yield "step of the build", "", f"include {folder or '.'}", "given", command.span
+
+
+def _not_enabled(commands: Sequence[tuple[Command, str]]) -> Iterator[tuple[Span, str]]:
+    """The languages without which what is built is not compiled, and that no command enables."""
+    needed, enabled = set[str](), set[str]()
+    for command, condition in commands:
+        words = [argument.text for argument in command.arguments]
+        match command.name:
+            case "add_library" | "add_executable":
+                needed.add("CXX")
+            case "rosidl_generate_interfaces":
+                needed |= _DEFAULT_LANGUAGES
+            case "project":
+                enabled |= _languages(words[1:])
+            case "enable_language" if not condition:
+                enabled.update(words)
+    projects = [c.span for c, _ in commands if c.name == "project"]
+    yield from ((projects[0], language) for language in sorted(needed - enabled) if projects)
+
+
+def _languages(options: Sequence[str]) -> frozenset[str]:
+    """The languages that `project` enables by what follows its name."""
+    if "LANGUAGES" in options:
+        return frozenset(options[options.index("LANGUAGES") + 1 :]) - _ABOUT_PROJECT
+    is_plain = bool(options) and _ABOUT_PROJECT.isdisjoint(options)
+    return frozenset(options) if is_plain else _DEFAULT_LANGUAGES
 
 
 def _asks(words: Sequence[str]) -> bool:

@@ -10,6 +10,7 @@ from rebsync.reverse.files.compiled_text import LINE_COMMENT
 from rebsync.reverse.scaffold.fact import PLAYED, PROGRAM, Fact, numbered
 from rebsync.reverse.scaffold.state_messages import told_in_cpp
 from rebsync.reverse.scaffold.texts import joined, squeezed
+from rebsync.reverse.syntax.cpp_text import with_one_alternative
 from rebsync.source import Source, Span
 
 MAIN = re.compile(r"\bint\s+main\s*\(")
@@ -45,7 +46,8 @@ _WHOLE = frozenset({"int", "int64_t", "std::int64_t", "long"})
 
 def facts_in_cpp(program: str, source: Source) -> Iterator[Fact]:
     """The facts in a file; `program` is the name of a program that has its `main` there."""
-    text = _COMMENT.sub(lambda m: m[1] or " " * len(m[0]), source.text)
+    text = with_one_alternative(source.text)
+    text = _COMMENT.sub(lambda m: m[1] or " " * len(m[0]), text)
     text = _BROKEN.sub(joined, text)
     joints, told = _joints(source, text), told_in_cpp(source, text)
     found = chain(joints, told, _made(program, source, text), _in_ros2(source, text))

@@ -11,6 +11,7 @@ from collections.abc import Iterator, Mapping
 
 from rebsync.records import dataclass
 from rebsync.reverse.build.messages import MessageFile
+from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.scaffold.fact import TOLD, TOLD_TYPE, Fact
 from rebsync.reverse.scaffold.texts import squeezed
 from rebsync.source import Source, Span
@@ -33,6 +34,7 @@ _FLAT = re.compile(r"flatten\s*\(\s*(.*?)\s*,\s*\w+\s*\.\s*(\w+)\s*\)\s*;", re.D
 _SENT = re.compile(
     r"(?:this\s*->\s*)?(\w+)\s*(?:\.|->)\s*publish\s*\(\s*(?:std::move\()?\s*\*?(\w*)"
 )
+_MACRO = re.compile(r"([A-Z][A-Z0-9_]+)\s*[(;]")  # what it stands for may set anything
 _NAMING = frozenset({"enum", "using"})  # these may name something else as a state variable is
 _ALWAYS = frozenset({"server", "arguments", "arrival", "start", "now"})
 FIELD = re.compile(r"^[ \t]*([\w/\[\]]+)[ \t]+(\w+)[ \t]*(?:#.*)?$", re.MULTILINE)
@@ -120,7 +122,9 @@ class _Telling:
             of, name, part, operator, value = found.groups()
             how = "" if (part, operator) == ("", "=") else f"{part} {operator} "
             return (name, f"{how}{_value(value, self.served)}") if of == self.message else None
-        if statement.partition(" ")[0] in _NAMING:
+        macro = _MACRO.match(statement)
+        is_macro = macro is not None and not macro[1].startswith(libraries.logging())
+        if is_macro or statement.partition(" ")[0] in _NAMING:
             return "", squeezed(statement)
         declared = _DECLARED.match(statement)
         if declared is None or _MADE.match(statement) is not None or not self._hides(declared[1]):

@@ -106,6 +106,11 @@ def readable(text: str, plain: Plain) -> str:
             text = pattern.sub(instead, text)
     if _MAY_BE_ATTRIBUTE.search(text):
         text = _ATTRIBUTE.sub(_keep_first, text)
+    return with_one_alternative(text)
+
+
+def with_one_alternative(text: str) -> str:
+    """The text with blanks for the parts that no compiler sees, or that cannot be read together."""
     return _without(text, dropped(text)) if has_alternatives(text) else text
 
 

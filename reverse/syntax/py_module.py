@@ -59,13 +59,13 @@ def _bound(node: ast.AST) -> frozenset[str]:
     return inner.union(*map(_bound, ast.iter_child_nodes(node)))
 
 
-def imported_packages(text: str) -> frozenset[str]:
-    """The outermost packages that a module imports by their names, anywhere in it."""
+def imported_modules(text: str) -> frozenset[str]:
+    """The modules that a module imports by their full names, anywhere in it."""
     found: set[str] = set()
     for node in ast.walk(module_of(text) or ast.Module([], [])):
         match node:
             case ast.Import(names):
-                found |= {each.name.partition(".")[0] for each in names}
+                found |= {each.name for each in names}
             case ast.ImportFrom(str(module), level=0):
-                found.add(module.partition(".")[0])
+                found.add(module)
     return frozenset(found)

@@ -12,13 +12,14 @@ from posixpath import dirname
 from rebsync.diagnostics import Findings
 from rebsync.files import read_source
 from rebsync.reverse.build.dependencies import is_of_libraries
-from rebsync.reverse.syntax.py_module import imported_packages
+from rebsync.reverse.syntax.py_module import imported_modules
 from rebsync.roundtrip.package.record import Record
 from rebsync.roundtrip.package.state import PackageState
 from rebsync.roundtrip.verdict.missing_definitions import finding
 from rebsync.source import NOWHERE
 
 _SUFFIX, _INIT = ".py", "/__init__.py"
+_MESSAGES = (".msg", ".srv", ".action")  # packages that are built of the messages
 _ALWAYS = frozenset({"sitecustomize", "usercustomize"})
 
 
@@ -31,7 +32,14 @@ def shadowing(record: Record, now: PackageState) -> Iterator[Findings]:
     code = [n for n in record.files if n in paths and _is_python(n)]
     roots = {dirname(n) for n in code if not n.endswith(_SUFFIX)}
     roots |= {dirname(dirname(n)) for n in code if n.endswith(_INIT)}
-    imported = {m for n in code for m in imported_packages(read_source(paths[n]).text)}
+    modules = {m for n in code for m in imported_modules(read_source(paths[n]).text)}
+    imported = {module.partition(".")[0] for module in modules}
+    of_messages = {
+        f"{r}/{m}".lstrip("/").replace(".", "/")
+        for r in roots
+        for m in modules
+        if m.endswith(_MESSAGES)
+    }
     for name in new:
         module = name.removesuffix(_INIT).removesuffix(_SUFFIX)
         folder, _, stem = module.rpartition("/")
@@ -39,7 +47,7 @@ def shadowing(record: Record, now: PackageState) -> Iterator[Findings]:
         own = {n.removesuffix(_INIT) for n in code}
         is_meant = stem in imported | _ALWAYS or is_of_libraries(stem)
         is_first = folder in roots and is_meant and module not in own
-        if is_instead or is_first:
+        if is_instead or is_first or module in of_messages:
             message = f'Python imports this in place of what generated code means by "{stem}"'
             yield finding(read_source(paths[name]), NOWHERE, message)
 

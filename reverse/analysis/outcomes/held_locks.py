@@ -19,6 +19,7 @@ from rebsync.reverse.analysis.origins import AnyOrigin, ClassOrigin, LibraryOrig
 from rebsync.reverse.analysis.outcomes.lock_classes import (
     BY_HAND,
     OTHERWISE,
+    UNLOCKS,
     has_guard,
     inner_of,
     is_by_hand,
@@ -50,6 +51,7 @@ _REENTRANT = LibraryOrigin("threading.RLock")
 _OF = "::"  # between a class and its field
 _AGAIN = "this waits for ever where the lock is held already"
 UNKNOWN_LOCK = "what this locks is not known"
+_NOT_HELD = "this unlocks what is not locked here, and may do anything"
 _LONGER = "this may hold a lock for longer than its block"
 
 # The mutexes that something locks; None is one of which nothing is known.
@@ -76,6 +78,10 @@ class HeldLocks:
                 notes.problem(used, _LONGER)
             if isinstance(used, s.Call | s.Unsupported) and self._is_unknown(used):
                 notes.problem(used, UNKNOWN_LOCK)
+        for unlock in (
+            _unpaired(function.body) if function.kind is not FunctionKind.DESTRUCTOR else ()
+        ):
+            notes.problem(unlock, _NOT_HELD)
         scoped = _scoped(function.body)
         for node, inside in _with_rest(function.body):
             mutexes = self._locked(node, function.name)
@@ -312,6 +318,26 @@ def _held(node: s.Statement, rest: s.Body) -> tuple[s.Body, bool]:
             case _:
                 pass
     return rest, True
+
+
+def _unpaired(body: s.Body) -> list[s.Call]:
+    """The calls that unlock a mutex which nothing before them in their block has locked."""
+    unlocks = {id(n): n for n in walk(body) if isinstance(n, s.Call) and _mutex_of(n, UNLOCKS)}
+    for node, rest in _with_rest(body) if unlocks else ():
+        if isinstance(node, s.Call) and (mutex := _mutex_of(node, BY_HAND)) is not None:
+            later = (n for n in rest if id(n) in unlocks and _mutex_of(n, UNLOCKS) == mutex)
+            unlocks.pop(id(next(later, None)), None)
+    return list(unlocks.values())
+
+
+def _mutex_of(node: s.Statement, methods: Collection[str]) -> e.Expression | None:
+    """The mutex of a library whose method a statement calls, if it is one of these."""
+    match node:
+        case s.Call(_, s.LibraryCallee(name, mutex)):
+            of, _, method = name.rpartition("::")
+            return mutex if of.endswith("mutex") and method in methods else None
+        case _:
+            return None
 
 
 def _with_rest(body: s.Body) -> Iterator[tuple[s.Statement, s.Body]]:

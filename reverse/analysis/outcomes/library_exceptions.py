@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import datetime
+import re
 import time
 from collections.abc import Sequence
 from typing import Literal, TypeAlias
@@ -36,6 +37,7 @@ def _is_positive(value: object) -> bool:
 _OfNumbers: TypeAlias = Literal[Raises.NEGATIVE, Raises.ZERO_SECOND, Raises.ZERO_STEP, Raises.POWER]
 _Plain: TypeAlias = Literal[Raises.NO_TEXT, Raises.UNWRITTEN]
 _OF_MOMENTS = {"datetime": datetime, "time": time}
+_NAME = re.compile(r"(?:[A-Za-z~/][\w/]*)?", re.ASCII)  # of ROS
 _MEMORY = 1 << 40
 _WHOLE = (["utf-8"], ["utf8"], ["UTF-8"])  # encodings that have all characters
 
@@ -135,6 +137,9 @@ class LibraryExceptions:
                 return not self._are_plain(values, when, facts)
             case Raises.UNDECLARED | Raises.UNDECLARED_ALONE | Raises.REPEATED | Raises.OTHER_TYPE:
                 return self._is_odd_parameter(node, when, facts)
+            case Raises.NO_NAME:
+                texts = (text for v in values for text in self.expressions.texts(v))
+                return not all(map(_NAME.fullmatch, texts))
             case Raises.UNORDERED:
                 return not self._are_ordered(values, facts)
             case _:

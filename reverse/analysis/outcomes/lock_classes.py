@@ -14,6 +14,8 @@ OTHERWISE = re.compile(
 )
 BY_HAND = frozenset({"lock", "lock_shared", "try_lock", "try_lock_for", "try_lock_until"})
 
+UNLOCKS = frozenset({"unlock", "unlock_shared"})
+
 
 def is_guard(name: str) -> bool:
     """Whether a class is a guard; or what makes objects of one, as `std::make_unique` does."""

@@ -39,6 +39,8 @@ from rebsync.source import NOWHERE, Span
 
 # Words without which nothing locks, or waits for who does.
 _LOCKS = re.compile(rb"(?<![cCbB])lock|\bsem_\w*wait")
+# Words without which no code makes a time of a client library, or gets one.
+_TIMES = re.compile(rb"(?:Time|Duration|Rate|\bstamp_?|fromSec|\bchrono)\b|\bnow\s*\(")
 _ACTING = ("call_expression", "assignment_expression", "update_expression", "new_expression")
 _UNSEEN = UNSAID | {NOTHING_THERE, NO_RESULT, SHIFTS_TOO_FAR}
 # Headers of messages of ROS 1, which are named as these are.
@@ -112,6 +114,11 @@ class CppForm:
     def _has_locks(self) -> bool:
         """Whether files other than known ones may lock something, by their words."""
         return any(_LOCKS.search(cpp.data) for cpp in self._code.files if cpp not in self._known)
+
+    @cached_property
+    def has_times(self) -> bool:
+        """Whether files other than known ones may use times of a client library, by their words."""
+        return any(_TIMES.search(cpp.data) for cpp in self._code.files if cpp not in self._known)
 
     @cached_property
     def _of_known(self) -> frozenset[str]:

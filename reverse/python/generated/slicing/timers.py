@@ -20,6 +20,7 @@ from rebsync.reverse.libraries.generated_calls import (
     SHUTDOWN_HOOKS,
     TIMER_OF_NODE,
     TIMER_OF_ROS_1,
+    is_period,
 )
 from rebsync.reverse.python.generated.py_types import (
     call_parts,
@@ -37,7 +38,6 @@ from rebsync.reverse.syntax.py_tree import field, is_constant_text, named, text_
 _MAKES = {TIMER_OF_ROS_1: 1, TIMER_OF_NODE: 0}
 _BASES = frozenset({"ABC", "Node", "RebecNode", "object"})
 _NUMBER = re.compile(r"\d+(?:\.\d*)?")
-_LEAST, _MOST = 0.001, 1e6
 _FLAGS = frozenset({"oneshot=True", "oneshot=False"})
 
 
@@ -235,4 +235,4 @@ def _branch_tells(
 def _is_period(node: Node) -> bool:
     """Whether it is a number of seconds, as it stands, that leaves time and that ROS can count."""
     number = _NUMBER.fullmatch(text_of(node))
-    return number is not None and _LEAST <= float(number[0]) <= _MOST
+    return number is not None and is_period(float(number[0]))
