@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import datetime
 import importlib
+import pathlib
 import queue
 import threading
 from collections.abc import Mapping
@@ -123,10 +124,11 @@ _ATTRIBUTES: Mapping[str, str] = {
         for of in (
             *(datetime.datetime, datetime.date, datetime.time, datetime.timedelta),
             *(datetime.timezone, threading.Event, threading.Thread, threading.Timer),
-            *(queue.Queue, queue.PriorityQueue, queue.LifoQueue),
+            *(queue.Queue, queue.PriorityQueue, queue.LifoQueue, pathlib.Path),
         )
     },
 }
+PATH = "pathlib.Path"
 _COUNTS = ("get_subscription_count", "get_publisher_count")
 # Modules that turn angles into quaternions and back: tuples and arrays of numbers.
 _TURNING = (
@@ -178,6 +180,7 @@ _GIVES: Mapping[str, str] = {
     "datetime.datetime.date": "datetime.date",
     "datetime.datetime.time": "datetime.time",
     **dict.fromkeys(("os.getcwd", "platform.node", "socket.gethostname"), "str"),
+    **{f"{PATH}.{name}": PATH for name in ("absolute", "joinpath", "with_name", "with_suffix")},
     **dict.fromkeys(("rospy.resolve_name", "rospy.remap_name"), "str"),
     "rospy.Publisher.get_num_connections": "number",
     **dict.fromkeys(
@@ -211,6 +214,8 @@ _HOLDS: Mapping[str, str] = {
         for which in ("real", "expected")
     },
     **{f"{of}.{name}": "number" for of in _TIMES for name in ("secs", "nsecs")},
+    f"{PATH}.parent": PATH,
+    **{f"{PATH}.{name}": "str" for name in ("name", "stem", "suffix")},
     **{f"datetime.timedelta.{name}": "number" for name in ("days", "seconds", "microseconds")},
     **{
         f"datetime.{of}.{name}": "number"
@@ -226,8 +231,8 @@ _HOLDS: Mapping[str, str] = {
 SAME_TIMES = {"rospy.Time": "time", "rospy.Duration": "duration"}
 TIMES = frozenset({*SAME_TIMES, *(name for pair in _CLIENT_TIMES for name in pair)})
 _SPAN, _MOMENT, _DAY = "datetime.timedelta", "datetime.datetime", "datetime.date"
-# What an operator gives for times, by the classes of its operands.
-OF_TIMES: Mapping[tuple[str, str, str], str] = {
+# What an operator gives for times and paths, by the classes of its operands.
+GIVEN_BY: Mapping[tuple[str, str, str], str] = {
     **{("+", time, span): time for time, span in _CLIENT_TIMES},
     **{("+", span, time): time for time, span in _CLIENT_TIMES},
     **{("-", time, span): time for time, span in _CLIENT_TIMES},
@@ -250,7 +255,8 @@ OF_TIMES: Mapping[tuple[str, str, str], str] = {
     ("+", _DAY, _SPAN): _DAY,
     ("-", _DAY, _SPAN): _DAY,
     ("-", _DAY, _DAY): _SPAN,
-    **{("<", each, each): "number" for each in (_SPAN, _MOMENT, _DAY, "datetime.time")},
+    **{("<", each, each): "number" for each in (_SPAN, _MOMENT, _DAY, "datetime.time", PATH)},
+    **{("/", *pair): PATH for pair in ((PATH, PATH), (PATH, "str"), ("str", PATH))},
 }
 # Methods that take no arguments.
 _ALONE = frozenset(

@@ -227,13 +227,15 @@ class LogCall:
     """What a call that logs takes: so many arguments `before` the message, and then the message.
 
     The message is a text if it is `only_text`. Where it `formats`, the arguments behind it are what
-    `%` puts into the message; elsewhere it takes none. `keywords` are arguments by name.
+    `%` puts into the message; elsewhere it takes none. `keywords` are arguments by name. One that
+    says what is logged gets one of `levels` for a message: numbers, and constants by full names.
     """
 
     before: int = 0
     only_text: bool = False
     formats: bool = True
     keywords: frozenset[str] = frozenset()
+    levels: frozenset[int | str] = frozenset()
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -148,6 +148,8 @@ class OutcomeExpressions:
             return  # the other operand becomes one ([expr.arith.conv])
         if value.operator is Operator.FLOOR_MODULO and self.is_text(left):
             return
+        if self.types.is_path(value, facts):
+            return
         if not self.is_nonzero(right, facts) and not self._constants.of(right):
             sizes = [f for f in facts if isinstance(f, IsSize) and f.value == bare(right)]
             given = [g for f in sizes if (g := self.sized_by_caller(f.container, 1)) is not None]

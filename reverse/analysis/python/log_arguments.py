@@ -50,6 +50,9 @@ class LogArguments:
             self._notes.fails(node, _WRONG)
         elif not (is_whole and names <= logs.keywords | _MESSAGE and (logs.formats or not rest)):
             self._notes.fails(node, REFUSED)
+        elif logs.levels:
+            if not self._is_level(message, logs.levels):
+                self._notes.fails(node, _WRONG)
         elif message is not None and logs.only_text:
             if self._kinds.asked(message, facts) - {OwnType.TEXT}:
                 self._notes.fails(node, _WRONG)
@@ -71,6 +74,16 @@ class LogArguments:
             self._notes.fails(node, _WRONG)
         for value in numbers_of(text, [v for v in rest if not isinstance(v, e.Spread)]):
             self._nones.check(value, node, facts)
+
+    @staticmethod
+    def _is_level(value: e.Expression | None, levels: frozenset[int | str]) -> bool:
+        match value:
+            case e.Literal(int(number)):
+                return number in levels
+            case e.LibraryReference(name):
+                return name in levels
+            case _:
+                return False
 
     def _logs(self, callee: Callee) -> LogCall | None:
         """What a call that logs takes; None for any other call."""

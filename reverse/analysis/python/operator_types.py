@@ -19,7 +19,7 @@ from rebsync.reverse.analysis.python.value_types import (
     own_type,
 )
 from rebsync.reverse.ir.operators import Operator
-from rebsync.reverse.libraries.attributes import OF_TIMES, SAME_TIMES
+from rebsync.reverse.libraries.attributes import GIVEN_BY, SAME_TIMES
 
 _NUMBER = OwnType.NUMBER
 SEQUENCES = frozenset({OwnType.TEXT, OwnType.BYTES, OwnType.LIST, OwnType.TUPLE, OwnType.ARRAY})
@@ -68,9 +68,9 @@ def takes(operator: Operator, left: OwnType | None, right: OwnType | None) -> bo
 
 
 def given_by(operator: Operator, left: ValueType | None, right: ValueType | None) -> str:
-    """The class of what an operator gives for a time; empty if none."""
+    """The class of what an operator gives for a time or a path; empty if none."""
     symbol = "<" if operator in ORDERED else operator.value
-    return OF_TIMES.get((symbol, _name(left), _name(right)), "")
+    return GIVEN_BY.get((symbol, _name(left), _name(right)), "")
 
 
 def _name(type_: ValueType | None) -> str:

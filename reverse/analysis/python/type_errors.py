@@ -45,6 +45,7 @@ from rebsync.reverse.analysis.stores import is_none
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import ImplicitCall, Operator
+from rebsync.reverse.libraries.attributes import PATH
 from rebsync.reverse.libraries.routines import Language
 
 _WRONG = "is of another type"
@@ -75,6 +76,10 @@ class TypeErrors:
     def of(self, value: e.Expression, facts: Facts) -> ValueTypes | None:
         """The types that a value may be of; None in other languages."""
         return self.kinds.types(value, facts) if self._is_python else None
+
+    def is_path(self, value: e.Expression, facts: Facts) -> bool:
+        """Whether a division is none of numbers: it says what is below a path."""
+        return self.of(value, facts) == {LibraryType(PATH)}
 
     def is_float(self, number: e.Expression) -> bool:
         """Whether a number may be a float."""

@@ -74,6 +74,12 @@ _NODE = {
 _LOG_KEYWORDS = frozenset(
     {"throttle_duration_sec", "throttle_time_source_type", "skip_first", "once", "name"}
 )
+_LOGGERS = ("get_logger", "rclpy.logging.get_logger")
+_LEVELS = frozenset({0, 10, 20, 30, 40, 50}) | {
+    f"rclpy.{of}.LoggingSeverity.{level}"
+    for of in ("logging", "impl.logging_severity")
+    for level in ("UNSET", "DEBUG", "INFO", "WARN", "ERROR", "FATAL")
+}
 _SPAN = Routine(Kind.SPAN, ("seconds", "nanoseconds"))
 _NODES = (
     *("rclpy.node.Node", "rclpy.Node", "rclpy.lifecycle.Node", "rclpy.lifecycle.LifecycleNode"),
@@ -230,9 +236,10 @@ LIBRARIES = (
         logs=("get_logger",),
         log_arguments={
             f"{made}().{level}": LogCall(only_text=True, formats=False, keywords=_LOG_KEYWORDS)
-            for made in ("get_logger", "rclpy.logging.get_logger")
+            for made in _LOGGERS
             for level in ("debug", "info", "warn", "warning", "error", "fatal")
-        },
+        }
+        | {f"{made}().set_level": LogCall(formats=False, levels=_LEVELS) for made in _LOGGERS},
         strict=True,
     ),
 )

@@ -131,7 +131,11 @@ def list_setup_effects(source: Source, findings: Findings) -> None:
     """Lists what `setup.py` does besides to say what is installed."""
     tree = module_of(source.text)
     if tree is not None:
-        _list(source, [n.lineno for n in ImportedCode(tree, IN_SETUP).acting()], findings)
+        code = ImportedCode(tree, IN_SETUP)
+        classes = (n for n in ast.walk(tree) if isinstance(n, ast.ClassDef))
+        methods = (n for of in classes for n in of.body if isinstance(n, ast.FunctionDef))
+        acting = [*code.acting(), *(n for method in methods for n in code.acting_in(method))]
+        _list(source, [n.lineno for n in acting], findings)
 
 
 def list_launch_effects(source: Source, findings: Findings) -> None:

@@ -8,7 +8,7 @@ from typing import TypeAlias, TypeGuard
 
 from rebsync.reverse.libraries.effects import of_function
 from rebsync.reverse.libraries.routines import Effect, Language
-from rebsync.reverse.python.generated.slicing.log_words import COMPUTING
+from rebsync.reverse.python.generated.slicing.log_words import CALLING, COMPUTING
 
 # What binds names, makes plain values, or only reads; further functions are in the tables.
 PLAIN = frozenset(
@@ -48,6 +48,13 @@ _DESCRIBES = frozenset({"add_action", "add_entity", "append", "extend", "perform
 _Function: TypeAlias = "ast.FunctionDef | ast.AsyncFunctionDef"
 _CLASS_HOOKS = frozenset({"__init_subclass__", "__set_name__"})
 _MAKING = frozenset({"__init__", "__new__", "__post_init__", "__call__"})
+# What all modules of a process share, and may be changed under another name.
+_SHARED = frozenset(
+    {"os.environ", "os.environb"}
+    | {f"sys.{name}" for name in ("path", "argv", "modules", "meta_path", "path_hooks")}
+)
+_COPYING = frozenset({"dict", "list", "tuple", "set", "len", "sorted"})
+_READING = frozenset({"r", "rb", "rt"})
 _BINDS = (ast.Import, ast.ImportFrom, ast.Pass, ast.Global, ast.Nonlocal)
 
 
@@ -101,6 +108,17 @@ class ImportedCode:
                     yield node
                 case _:
                     pass
+
+    def acting_in(self, function: ast.FunctionDef) -> Iterator[ast.stmt]:
+        """The statements of a function that may do more than to give a value."""
+        for node in self._acting(function.body):
+            match node:
+                case ast.Return(value=value) if value is None or self._is_plain(value):
+                    pass
+                case ast.AugAssign(target=ast.Name(), value=value) if self._is_plain(value):
+                    pass
+                case _:
+                    yield node
 
     def defining(self, own: Collection[str]) -> Iterator[ast.stmt]:
         """The definitions at the top that may do more than to bind their names."""
@@ -215,16 +233,62 @@ class ImportedCode:
         match node:
             case ast.Lambda(args=args):
                 return all(map(self._is_plain, args.defaults))
+            case ast.Name() | ast.Attribute() if self._is_shared(node):
+                return False
             case ast.Call(func=function, keywords=keywords):
                 is_changed = any(k.arg == "cmdclass" for k in keywords)
                 if is_changed or not self._is_plain_call(function):
+                    return False
+                if not (self._only_reads(node) and self._hands_over_plainly(node)):
                     return False
             case ast.Await() | ast.Yield() | ast.YieldFrom():
                 return False
             case _:
                 pass
+        looked_at = [part for part in self._looked_at(node) if self._is_shared(part)]
         inner = (part for child in ast.iter_child_nodes(node) for part in _parts(child))
-        return all(map(self._is_plain, inner))
+        return all(self._is_plain(part) for part in inner if part not in looked_at)
+
+    def _is_shared(self, node: ast.expr) -> bool:
+        return self._name_of(node) in _SHARED
+
+    def _looked_at(self, node: ast.expr) -> list[ast.expr]:
+        """The parts of an expression of which it asks elements, or makes a copy."""
+        match node:
+            case ast.Subscript(value=of) | ast.Attribute(value=of):
+                return [of]
+            case ast.Compare(comparators=others):
+                return others
+            case ast.Call(func=function, args=args) if self._name_of(function) in _COPYING:
+                return args
+            case ast.Dict(keys, values):
+                return [v for k, v in zip(keys, values, strict=True) if k is None]
+            case _:
+                return []
+
+    def _only_reads(self, call: ast.Call) -> bool:
+        """Whether a call opens no file to write into it."""
+        if self._name_of(call.func) not in ("open", "io.open", "codecs.open"):
+            return True
+        modes = [*call.args[1:2], *(k.value for k in call.keywords if k.arg in (None, "mode"))]
+        return all(isinstance(m, ast.Constant) and m.value in _READING for m in modes)
+
+    def _hands_over_plainly(self, call: ast.Call) -> bool:
+        """Whether the functions that a call is given, and calls, do nothing but to give a value."""
+        handed = [k.value for k in call.keywords if k.arg == "key"]
+        handed += call.args[:1] if self._name_of(call.func) in CALLING else []
+        return all(map(self._is_called_plainly, handed))
+
+    def _is_called_plainly(self, function: ast.expr) -> bool:
+        match function:
+            case ast.Lambda(body=body):
+                return self._is_plain(body)
+            case ast.Call(func=maker):
+                return self._name_of(maker) in ("operator.itemgetter", "operator.attrgetter")
+            case ast.Attribute(value=ast.Name("str")) | ast.Constant():
+                return True
+            case _:
+                return self._is_plain_call(function)
 
     def _is_plain_call(self, function: ast.expr) -> bool:
         name = self._name_of(function)
@@ -282,20 +346,10 @@ class ImportedCode:
 class LaunchCode(ImportedCode):
     """A launch file, whose functions run when it is started."""
 
-    def acting_in(self, function: ast.FunctionDef) -> Iterator[ast.stmt]:
-        """The statements of a function that may do more than to describe what is started."""
-        for node in self._acting(function.body):
-            match node:
-                case ast.Return(value=value) if value is None or self._is_plain(value):
-                    pass
-                case ast.AugAssign(target=ast.Name(), value=value) if self._is_plain(value):
-                    pass
-                case _:
-                    yield node
-
     def _is_plain_call(self, function: ast.expr) -> bool:
         name = self._name_of(function)
-        if name.startswith(_LAUNCH) or name.rpartition(".")[2] in _DESCRIBES:
+        of, _, method = name.rpartition(".")
+        if name.startswith(_LAUNCH) or (method in _DESCRIBES and of not in _SHARED):
             return True
         return super()._is_plain_call(function)
 

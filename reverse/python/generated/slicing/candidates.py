@@ -13,12 +13,13 @@ from rebsync.reserved import PYTHON_FUNCTIONS, PYTHON_MEMBERS
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.libraries.tables.runtime import names_in_model
+from rebsync.reverse.python.generated.py_types import expression_in
 from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode, Scope, module_named, module_of
 from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
-from rebsync.reverse.syntax.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_tree import field, is_literal_text, named, text_of
 
 _STATEMENTS = frozenset(
     {
@@ -152,11 +153,13 @@ def asked_of_node() -> Collection[str]:
 def may_tell(node: Node, words: Collection[str], members: Collection[str]) -> bool:
     """Whether a statement names something for people, or logs, and asks the node nothing else.
 
-    `words` are variables for people, `members` attributes of the object.
+    `words` are variables for people, `members` attributes of the object. A text that is not used
+    tells as little.
     """
     if node.type not in _STATEMENTS:
         return False
-    names_told = False
+    inner = expression_in(node)
+    names_told = inner is not None and is_literal_text(inner)
     for part in nodes_in(node):
         called = text_of(field(part, "function")) if part.type == "call" else ""
         if part.type == "identifier":
