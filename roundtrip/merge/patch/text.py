@@ -15,6 +15,7 @@ _STEP = "  "  # of what rebsync prints, and of a text in which nothing is indent
 
 
 _INDENTED = re.compile(r"^(?:  )+", re.MULTILINE)
+_OUTSIDE = re.compile(r"/\*.*?\*/|//[^\n]*|[{;]", re.DOTALL)
 
 
 @dataclass(eq=False)
@@ -82,7 +83,7 @@ class TextPatch:
 
     def within(self, span: Span, text: str) -> None:
         """Puts lines first behind the opening brace of a block."""
-        opening = self.text.index("{", span.start)
+        opening = self.find("{", span.start)
         inner = self.text[opening + 1 : span.end - 1]
         indent = self.indent_at(span.start)
         if not inner.strip() and "\n" not in inner:
@@ -109,6 +110,12 @@ class TextPatch:
             parts += (self.text[at : edit.span.start], edit.text)
             at = max(at, edit.span.end)
         return "".join([*parts, self.text[at:]])
+
+    # --- places ---------------------------------------------------------------------------------
+
+    def find(self, mark: str, at: int) -> int:
+        """Where a brace or a semicolon comes next behind a place, comments not counting."""
+        return next(f.start() for f in _OUTSIDE.finditer(self.text, at) if f[0] == mark)
 
     # --- lines ----------------------------------------------------------------------------------
 
