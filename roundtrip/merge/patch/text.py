@@ -15,7 +15,7 @@ _STEP = "  "  # of what rebsync prints, and of a text in which nothing is indent
 
 
 _INDENTED = re.compile(r"^(?:  )+", re.MULTILINE)
-_OUTSIDE = re.compile(r"/\*.*?\*/|//[^\n]*|[{;]", re.DOTALL)
+_TOKEN = re.compile(r'"(?:\\.|[^"\\\n])*"|/\*.*?\*/|//[^\n]*|[{;]', re.DOTALL)
 
 
 @dataclass(eq=False)
@@ -49,8 +49,12 @@ class TextPatch:
     # --- collecting -----------------------------------------------------------------------------
 
     def replace(self, span: Span, text: str) -> None:
-        """Puts a text in place of another; its further lines are indented as the first one is."""
+        """Puts a text in place of another; its further lines are indented as the first one is.
+
+        Comments in the old one that the new one lacks stand before it.
+        """
         indent = self.indent_at(span.start)
+        text = with_remarks(self.text[span.start : span.end], text) if text else text
         self._edit(span.start, span.end, indented(text, indent).removeprefix(indent))
 
     def insert(self, at: int, text: str) -> None:
@@ -115,7 +119,7 @@ class TextPatch:
 
     def find(self, mark: str, at: int) -> int:
         """Where a brace or a semicolon comes next behind a place, comments not counting."""
-        return next(f.start() for f in _OUTSIDE.finditer(self.text, at) if f[0] == mark)
+        return next(f.start() for f in _TOKEN.finditer(self.text, at) if f[0] == mark)
 
     # --- lines ----------------------------------------------------------------------------------
 
@@ -143,19 +147,35 @@ class TextPatch:
         return not rest or rest.startswith("//") or _is_one_comment(rest)
 
     def _above(self, start: int) -> int:
-        """The start of the comments right above a line, and of the empty line before them."""
-        while start:
-            line = self._line_start(start - 1)
-            shown = self.text[line:start].strip()
+        """The start of the comments right above a line, and of the empty line before them.
+
+        Those that the text begins with are of all of it.
+        """
+        at = start
+        while at:
+            line = self._line_start(at - 1)
+            shown = self.text[line:at].strip()
             if shown.startswith("//") or _is_one_comment(shown):
-                start = line
+                at = line
                 continue
-            return line if not shown else start
+            return line if not shown else at
         return start
 
 
 def _is_one_comment(text: str) -> bool:
     return text.startswith("/*") and text.find("*/", 2) == len(text) - 2 and len(text) > 3
+
+
+def with_remarks(old: str, new: str) -> str:
+    """A text with the comments of the one that it replaces, as far as it has not got them."""
+    left = Counter(_comments(old)) - Counter(_comments(new))
+    kept = [shown.replace("\r", "").rstrip() for shown in left.elements()]
+    end = "\n" if any(shown.startswith("//") for shown in kept) else " "
+    return "".join(f"{shown}{end}" for shown in kept) + new
+
+
+def _comments(text: str) -> list[str]:
+    return [f for f in _TOKEN.findall(text) if f.startswith(("//", "/*"))]
 
 
 def indented(text: str, indent: str) -> str:
