@@ -96,6 +96,13 @@ class TextPatch:
         else:
             self.after(opening + 1, text, indent + self.step)
 
+    def remark_of(self, span: Span) -> str:
+        """The comment at the end of the line that a text has to itself, as a line of its own."""
+        start, end = self._line_start(span.start), self._line_end(span.end)
+        is_alone = not self.text[start : span.start].strip() and self._is_remark(span.end, end)
+        remark = self.text[span.end : end].strip() if is_alone else ""
+        return f"{remark}\n" if remark else ""
+
     def take_back(self, mark: int) -> None:
         """Forgets the changes that came after the first `mark` ones."""
         del self.edits[mark:]
