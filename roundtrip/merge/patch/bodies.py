@@ -152,7 +152,8 @@ class BodyPatch:
             for x, r in aligned(lefts, rights, _similarity)
         ]
         new = [r for x, r in pairs if x is None]
-        gone = [x for x, r in pairs if r is None and any(self.same(x, each) for each in new)]
+        apart = [x for x, r in pairs if x is not None and r is None]
+        gone = [x for x in apart if any(self.same(x, r) for r in new)]
         last: m.Statement | None = None
         for run in _runs(pairs):
             old, new = run[0]
