@@ -177,3 +177,14 @@ def test_comments_are_kept_and_count_as_no_code(
     for old, new in wanted:
         text = text.replace(old, new)
     assert merged_model(base, base, given(code), Favour.MARKERS).text == text
+
+
+def test_what_each_side_adds_is_not_taken_for_one_that_is_renamed() -> None:
+    base = given(BASE)
+    end = "  msgsrv go() {"
+    today = BASE.replace(end, f"  msgsrv mine() {{\n    x = 3;\n  }}\n\n{end}")
+    code = BASE.replace(end, f"  msgsrv theirs() {{\n    x = 4;\n  }}\n\n{end}")
+    code = code.replace("self.go();", "self.go();\n    self.theirs();")
+    merged = merged_model(base, given(today), given(code), Favour.MARKERS)
+    assert merged.conflicts
+    assert "msgsrv mine() {" in merged.text and "msgsrv theirs() {" in merged.text
