@@ -9,6 +9,7 @@ from posixpath import commonprefix
 
 from rebsync.records import dataclass
 
+_LINE = re.compile(r"[^\n]*\n|[^\n]+")
 # A comment at the end of a line of C++ or Python; `a // b` of Python is none.
 _BESIDE = re.compile(r"(?<=[;{},:])[ \t]*//|(?<=\S)[ \t]+#")
 
@@ -27,7 +28,7 @@ def merged_text(ours: str, base: str, theirs: str, labels: tuple[str, str]) -> M
     What both left alone divides the texts into parts (diff3: Khanna, Kunal and Pierce, A formal
     investigation of diff3, 2007). Code and the comments at the ends of its lines merge apart.
     """
-    lines = [text.splitlines(keepends=True) for text in (ours, base, theirs)]
+    lines = [_lines(text) for text in (ours, base, theirs)]
     out: list[str] = []
     conflicts = 0
     for places in aligned(*lines):
@@ -47,6 +48,11 @@ def merged_text(ours: str, base: str, theirs: str, labels: tuple[str, str]) -> M
     return MergedText("".join(out), conflicts)
 
 
+def _lines(text: str) -> list[str]:
+    """The lines of a text, each with its end; a form feed, say, ends none."""
+    return _LINE.findall(text)
+
+
 def _common_ends(ours: list[str], theirs: list[str]) -> tuple[int, int]:
     """How many lines two sides begin, and end, with in common."""
     first = len(commonprefix([ours, theirs]))
@@ -57,7 +63,7 @@ def decided(text: str, labels: tuple[str, str], first: bool) -> str:
     """A merged text with the first or the second side of each conflict."""
     out: list[str] = []
     side = 0
-    for line in text.splitlines(keepends=True):
+    for line in _lines(text):
         plain = line.rstrip("\r\n")
         if plain == f"<<<<<<< {labels[0]}":
             side = 1
@@ -78,7 +84,7 @@ def agreed_lines(merged: MergedText, labels: tuple[str, str]) -> int:
 
 def both_sides(ours: str, theirs: str, our_label: str, their_label: str) -> str:
     """A text with both sides wherever two texts differ."""
-    first, second = (text.splitlines(keepends=True) for text in (ours, theirs))
+    first, second = _lines(ours), _lines(theirs)
     out: list[str] = []
     for tag, i, j, k, n in SequenceMatcher(None, first, second, autojunk=False).get_opcodes():
         if tag == "equal":

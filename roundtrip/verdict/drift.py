@@ -115,6 +115,8 @@ class _Movers:
         """Whose change it is."""
         element = self._before(difference.element)
         by_model, by_code = _has_touched(self.model, element), _has_touched(self.code, element)
+        if isinstance(difference, Renamed):  # what both have added is not one element renamed
+            by_code |= Element(element.kind, _renamed(difference)) in self.code
         if element in self.conflicts or (by_model and by_code):
             return Mover.CONFLICT
         if by_model or by_code:

@@ -16,7 +16,7 @@ from rebsync.reverse.python.values.py_units import py_units
 from rebsync.reverse.syntax.code_units import CodeUnit
 from rebsync.reverse.syntax.cpp_units import cpp_units
 from rebsync.roundtrip.merge.source import merged_source
-from rebsync.roundtrip.merge.text import MergedText, agreed_lines, merged_text
+from rebsync.roundtrip.merge.text import MergedText, agreed_lines, decided, merged_text
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -235,3 +235,11 @@ def doubled(text: str) -> set[str]:
     declared = (line for line in text.split("\n") if any(s in line for s in signs))
     found = Counter(re.split(r" = |_\{", line)[0] for line in declared)
     return {line for line, number in found.items() if number > 1}
+
+
+@pytest.mark.parametrize("sign", ["\x0c", "\x0b", "\x85", "\u2028"])
+def test_a_line_in_conflict_ends_where_the_language_ends_it(sign: str) -> None:
+    ours = f"a\nx = 1  # of{sign}b\nc\n"
+    merged = merged_text(ours, "a\nx = 1\nc\n", "a\nc\n", LABELS)
+    assert merged.conflicts == 1
+    assert decided(merged.text, LABELS, True) == ours

@@ -77,3 +77,114 @@ def test_parts_of_an_expression_have_no_more_parentheses_than_they_need(
     wanted = text.replace(f"if ({before})", f"if ({after})")
     merged = merged_model(base, base, given(wanted), Favour.MARKERS)
     assert merged.text == wanted
+
+
+NOTED = """// The page of the file.
+env int e = 1;  // of e
+env int f = 2;
+
+reactiveclass Robot(3) /* head { */ {
+  statevars // of { all ;
+  {
+    int x;
+    int z /* of ; z */;
+  }
+
+  Robot() {
+    x = 0;
+    self.go();
+  }
+
+  msgsrv go() {
+    // first
+    x = x + f; // more
+    switch (x) { // by x
+      case 0: // none
+        z = 1;
+        break;
+      default: // some
+        z = 2;
+    }
+    self.go() after(x); // again
+  }
+}
+
+main /* of { all */ {
+  Robot robot():(); // the one
+}
+"""
+
+
+@pytest.mark.parametrize(
+    ("changes", "wanted"),
+    [
+        (
+            [("    int x;", "    int y;\n    int x;")],
+            [("  {\n    int x;", "  {\n    int y;\n    int x;")],
+        ),
+        (
+            [("z */;", "z */;\n    int y;")],
+            [("z */;", "z */;\n    int y;")],
+        ),
+        (
+            [("(3)", "(4)")],
+            [("reactiveclass Robot(3) /* head { */", "/* head { */ reactiveclass Robot(4)")],
+        ),
+        (
+            [("  Robot robot", "  Robot first():();\n  Robot robot")],
+            [("// the one", "// the one\n  Robot first():();")],
+        ),
+        ([("env int e = 1;  // of e\n", "")], [("env int e = 1;  // of e\n", "")]),
+        (
+            [
+                (
+                    "        break;\n",
+                    "        break;\n      case 1:\n        z = 5;\n        break;\n",
+                )
+            ],
+            [
+                (
+                    "    switch (x) { // by x",
+                    "    // by x\n    // none\n    // some\n    switch (x) {",
+                ),
+                ("case 0: // none", "case 0:"),
+                ("default: // some", "default:"),
+                (
+                    "        break;\n",
+                    "        break;\n      case 1:\n        z = 5;\n        break;\n",
+                ),
+            ],
+        ),
+        (
+            [
+                ("    self.go() after(x); // again\n", ""),
+                ("    x = x + f; // more\n", "    self.go() after(x);\n    x = x + f;\n"),
+            ],
+            [
+                ("    self.go() after(x); // again\n", ""),
+                ("    // first\n", "    // again\n    self.go() after(x);\n    // first\n"),
+            ],
+        ),
+    ],
+)
+def test_comments_are_kept_and_count_as_no_code(
+    changes: list[tuple[str, str]], wanted: list[tuple[str, str]]
+) -> None:
+    base = given(NOTED)
+    code, text = NOTED, NOTED
+    for old, new in changes:
+        code = code.replace(old, new)
+    for old, new in wanted:
+        text = text.replace(old, new)
+    assert merged_model(base, base, given(code), Favour.MARKERS).text == text
+
+
+def test_what_each_side_adds_is_not_taken_for_one_that_is_renamed() -> None:
+    base = given(BASE)
+    end = "  msgsrv go() {"
+    today = BASE.replace(end, f"  msgsrv mine() {{\n    x = 3;\n  }}\n\n{end}")
+    code = BASE.replace(end, f"  msgsrv theirs() {{\n    x = 4;\n  }}\n\n{end}")
+    code = code.replace("self.go();", "self.go();\n    self.theirs();")
+    merged = merged_model(base, given(today), given(code), Favour.MARKERS)
+    assert merged.conflicts
+    assert "msgsrv mine() {" in merged.text and "msgsrv theirs() {" in merged.text

@@ -72,12 +72,12 @@ class Additions:
         match item.kind:
             case "rebec":
                 assert model.main is not None
-                opening = self.two.out.text.index("{", model.main.span.start) + 1
+                opening = self.two.out.find("{", model.main.span.start) + 1
                 return opening, self.two.out.indent_at(model.main.span.start) + self.two.out.step
             case _ if item.owner:
                 owner = self._owner(item)
                 start = owner.name_span.end
-                opening = self.two.out.text.index("{", start) + 1
+                opening = self.two.out.find("{", start) + 1
                 return opening, self.two.out.indent_at(owner.span.start) + self.two.out.step
             case _:
                 return 0, ""
@@ -131,10 +131,10 @@ class Additions:
         section = next((x for x in members if isinstance(x, SECTIONS[item.kind])), None)
         indent = self.two.out.indent_at(owner.span.start) + self.two.out.step
         if section is not None:
-            at = self.two.out.text.index("{", section.span.start) + 1
+            at = self.two.out.find("{", section.span.start) + 1
             inserts.setdefault((at, indent + self.two.out.step), []).append(self.two.line(item))
             return
-        at = self.two.out.text.index("{", owner.name_span.end) + 1
+        at = self.two.out.find("{", owner.name_span.end) + 1
         key = (at, indent)
         word = {"statevar": "statevars", "knownrebec": "knownrebecs"}[item.kind]
         texts = inserts.setdefault(key, [])

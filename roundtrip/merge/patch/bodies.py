@@ -151,7 +151,9 @@ class BodyPatch:
             )
             for x, r in aligned(lefts, rights, _similarity)
         ]
-        gone = [x for x, r in pairs if x is not None and r is None]
+        new = [r for x, r in pairs if x is None]
+        apart = [x for x, r in pairs if x is not None and r is None]
+        gone = [x for x in apart if any(self.same(x, r) for r in new)]
         last: m.Statement | None = None
         for run in _runs(pairs):
             old, new = run[0]
@@ -167,6 +169,11 @@ class BodyPatch:
             olds = [x for x in olds if x not in heads]
             if self.printed.side.in_python:
                 news = list(joined_starts(news))
+            for x in (x for x in olds if x in gone):
+                self.out.remove(x.span)
+            olds = [x for x in olds if x not in gone]
+            if news and not olds and last is None and block is None:
+                return False
             last = self._run(olds, news, last, block, gone)
         return True
 
@@ -198,9 +205,9 @@ class BodyPatch:
         for x in gone:
             if self.same(x, r):
                 span = x.span
-                return dedented(
-                    self.out.text[span.start : span.end], self.out.indent_at(span.start)
-                )
+                text = self.out.text[span.start : span.end]
+                remark = self.out.remark_of(span)
+                return remark + dedented(text, self.out.indent_at(span.start))
         return self._text(r)
 
     def _text(self, r: m.Statement) -> str:

@@ -127,7 +127,7 @@ class _Patch:
         if noted:
             start = _past(text, x.annotations, start)
             bare = replace(bare, annotations=())
-        opening = text.index("{", max(start, x.name_span.end))
+        opening = self.two.out.find("{", max(start, x.name_span.end))
         head = print_class(bare).rstrip().removesuffix("{}").rstrip()
         end = opening - (text[opening - 1] == " ")
         self.two.out.replace(Span(start, end), head)

@@ -80,7 +80,7 @@ class Two:
         """The place behind a declaration and its semicolon."""
         if isinstance(old.section, m.Env):
             return old.section.span.end
-        return self.out.text.index(";", old.declaration.span.end) + 1
+        return self.out.find(";", old.declaration.span.end) + 1
 
 
 def variables(model: m.Model, item: Item) -> Iterator[DeclaredVariable]:

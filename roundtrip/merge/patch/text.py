@@ -15,6 +15,7 @@ _STEP = "  "  # of what rebsync prints, and of a text in which nothing is indent
 
 
 _INDENTED = re.compile(r"^(?:  )+", re.MULTILINE)
+_TOKEN = re.compile(r'"(?:\\.|[^"\\\n])*"|/\*.*?\*/|//[^\n]*|[{;]', re.DOTALL)
 
 
 @dataclass(eq=False)
@@ -48,8 +49,12 @@ class TextPatch:
     # --- collecting -----------------------------------------------------------------------------
 
     def replace(self, span: Span, text: str) -> None:
-        """Puts a text in place of another; its further lines are indented as the first one is."""
+        """Puts a text in place of another; its further lines are indented as the first one is.
+
+        Comments in the old one that the new one lacks stand before it.
+        """
         indent = self.indent_at(span.start)
+        text = with_remarks(self.text[span.start : span.end], text) if text else text
         self._edit(span.start, span.end, indented(text, indent).removeprefix(indent))
 
     def insert(self, at: int, text: str) -> None:
@@ -82,7 +87,7 @@ class TextPatch:
 
     def within(self, span: Span, text: str) -> None:
         """Puts lines first behind the opening brace of a block."""
-        opening = self.text.index("{", span.start)
+        opening = self.find("{", span.start)
         inner = self.text[opening + 1 : span.end - 1]
         indent = self.indent_at(span.start)
         if not inner.strip() and "\n" not in inner:
@@ -90,6 +95,13 @@ class TextPatch:
             self._edit(opening + 1, span.end - 1, own)
         else:
             self.after(opening + 1, text, indent + self.step)
+
+    def remark_of(self, span: Span) -> str:
+        """The comment at the end of the line that a text has to itself, as a line of its own."""
+        start, end = self._line_start(span.start), self._line_end(span.end)
+        is_alone = not self.text[start : span.start].strip() and self._is_remark(span.end, end)
+        remark = self.text[span.end : end].strip() if is_alone else ""
+        return f"{remark}\n" if remark else ""
 
     def take_back(self, mark: int) -> None:
         """Forgets the changes that came after the first `mark` ones."""
@@ -109,6 +121,12 @@ class TextPatch:
             parts += (self.text[at : edit.span.start], edit.text)
             at = max(at, edit.span.end)
         return "".join([*parts, self.text[at:]])
+
+    # --- places ---------------------------------------------------------------------------------
+
+    def find(self, mark: str, at: int) -> int:
+        """Where a brace or a semicolon comes next behind a place, comments not counting."""
+        return next(f.start() for f in _TOKEN.finditer(self.text, at) if f[0] == mark)
 
     # --- lines ----------------------------------------------------------------------------------
 
@@ -136,19 +154,35 @@ class TextPatch:
         return not rest or rest.startswith("//") or _is_one_comment(rest)
 
     def _above(self, start: int) -> int:
-        """The start of the comments right above a line, and of the empty line before them."""
-        while start:
-            line = self._line_start(start - 1)
-            shown = self.text[line:start].strip()
+        """The start of the comments right above a line, and of the empty line before them.
+
+        Those that the text begins with are of all of it.
+        """
+        at = start
+        while at:
+            line = self._line_start(at - 1)
+            shown = self.text[line:at].strip()
             if shown.startswith("//") or _is_one_comment(shown):
-                start = line
+                at = line
                 continue
-            return line if not shown else start
+            return line if not shown else at
         return start
 
 
 def _is_one_comment(text: str) -> bool:
     return text.startswith("/*") and text.find("*/", 2) == len(text) - 2 and len(text) > 3
+
+
+def with_remarks(old: str, new: str) -> str:
+    """A text with the comments of the one that it replaces, as far as it has not got them."""
+    left = Counter(_comments(old)) - Counter(_comments(new))
+    kept = [shown.replace("\r", "").rstrip() for shown in left.elements()]
+    end = "\n" if any(shown.startswith("//") for shown in kept) else " "
+    return "".join(f"{shown}{end}" for shown in kept) + new
+
+
+def _comments(text: str) -> list[str]:
+    return [f for f in _TOKEN.findall(text) if f.startswith(("//", "/*"))]
 
 
 def indented(text: str, indent: str) -> str:
