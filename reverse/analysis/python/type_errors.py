@@ -79,7 +79,8 @@ class TypeErrors:
 
     def is_path(self, value: e.Expression, facts: Facts) -> bool:
         """Whether a division is none of numbers: it says what is below a path."""
-        return self.of(value, facts) == {LibraryType(PATH)}
+        paths: ValueTypes = frozenset((LibraryType(PATH),))
+        return self.of(value, facts) == paths
 
     def is_float(self, number: e.Expression) -> bool:
         """Whether a number may be a float."""

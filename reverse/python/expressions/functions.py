@@ -107,7 +107,7 @@ def _rounded(value: Value, to_whole: Callable[[float], int]) -> Value | None:
     return Value(exact_literal_of(to_whole(number)), WHOLE)
 
 
-def _is_written(part: m.Expression) -> bool:
+def _is_written(part: m.Node) -> bool:
     """Whether Python computes a part of a literal of 64 bits as `constant` does."""
     match part:
         case m.IntLiteral(number):

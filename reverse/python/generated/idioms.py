@@ -135,8 +135,9 @@ def _array_type(reader: ModelExpressionReader, read: m.Expression) -> m.Type | N
         ways = _array_type(reader, bare(read.then)), _array_type(reader, bare(read.otherwise))
         return ways[0] if ways[0] == ways[1] else None
     type_ = type_of(reader, read) if _is_array(reader, read) else None
-    is_same = isinstance(read, m.Name | m.Member) and type_ is not None
-    return type_ if is_same and m.Type(type_.name) in (INT, BOOLEAN, DOUBLE) else None
+    if type_ is None or not isinstance(read, m.Name | m.Member):
+        return None
+    return type_ if m.Type(type_.name) in (INT, BOOLEAN, DOUBLE) else None
 
 
 def type_of(reader: ModelExpressionReader, place: m.Expression) -> m.Type | None:
