@@ -55,6 +55,7 @@ _OF_BITS = frozenset(
     {Operator.BIT_AND, Operator.BIT_OR, Operator.BIT_XOR}
     | {Operator.SHIFT_LEFT, Operator.SHIFT_RIGHT}
 )
+_PATHS: ValueTypes = frozenset((LibraryType(PATH),))
 _OF_WHOLE = "bcdoxX"  # how styles of whole numbers end
 
 
@@ -78,7 +79,7 @@ class TypeErrors:
 
     def is_path(self, value: e.Expression, facts: Facts) -> bool:
         """Whether a division is none of numbers: it says what is below a path."""
-        return self.of(value, facts) == {LibraryType(PATH)}
+        return self.of(value, facts) == _PATHS
 
     def is_float(self, number: e.Expression) -> bool:
         """Whether a number may be a float."""
