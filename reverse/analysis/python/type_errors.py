@@ -41,7 +41,6 @@ from rebsync.reverse.analysis.python.value_types import (
     own_type,
     union,
 )
-from rebsync.reverse.analysis.stores import is_none
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import ImplicitCall, Operator
@@ -56,6 +55,7 @@ _OF_BITS = frozenset(
     {Operator.BIT_AND, Operator.BIT_OR, Operator.BIT_XOR}
     | {Operator.SHIFT_LEFT, Operator.SHIFT_RIGHT}
 )
+_PATHS: ValueTypes = frozenset((LibraryType(PATH),))
 _OF_WHOLE = "bcdoxX"  # how styles of whole numbers end
 
 
@@ -79,8 +79,7 @@ class TypeErrors:
 
     def is_path(self, value: e.Expression, facts: Facts) -> bool:
         """Whether a division is none of numbers: it says what is below a path."""
-        paths: ValueTypes = frozenset((LibraryType(PATH),))
-        return self.of(value, facts) == paths
+        return self.of(value, facts) == _PATHS
 
     def is_float(self, number: e.Expression) -> bool:
         """Whether a number may be a float."""
@@ -288,7 +287,7 @@ class TypeErrors:
             )
             wrong |= TEXT in kinds[1] and bool(kinds[0] - {TEXT})
             wrong |= OwnType.BYTES in kinds[1] and bool(kinds[0] - {NUMBER, OwnType.BYTES})
-            wrong |= is_none(right)
+            wrong |= _is_none(right)
             if kinds[1] & {OwnType.SET, OwnType.FROZEN, OwnType.MAPPING}:
                 self._elements.is_key(value, left, facts)
         elif operator in (Operator.EQUAL, Operator.UNEQUAL, Operator.SAME, Operator.NOT_SAME):
@@ -330,7 +329,7 @@ class TypeErrors:
         if isinstance(index, e.Slice):
             self._needs(value, of, SEQUENCES, facts)
             for bound in (index.low, index.high, index.step):
-                if bound is not None and not is_none(bound):
+                if bound is not None and not _is_none(bound):
                     self._needs(value, bound, {NUMBER}, facts)
             return
         if kinds and kinds <= SEQUENCES | {OwnType.QUEUE, OwnType.MODEL_ARRAY}:
@@ -361,3 +360,7 @@ class TypeErrors:
                 self._notes.fails(node, _WRONG)
         else:
             self._needs(node, value, {NUMBER, TEXT}, facts)
+
+
+def _is_none(value: e.Expression) -> bool:
+    return isinstance(value, e.Literal) and value.value is None
