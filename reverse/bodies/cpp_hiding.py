@@ -24,6 +24,8 @@ _FUNCTION = "function_declarator"
 def check_hiding(reader: CppStatementReader, node: Node) -> None:
     """Raises `Unread` where a statement hides what the scope has, by what is no variable."""
     scope = reader.scope
+    if node.type == "using_declaration" and text_of(named(node)[-1]).startswith("std::"):
+        return  # by which names mean what they are taken for
     for name in names_given(node):
         known = scope.meaning(name) is not None or name in scope.functions
         if known or name in scope.members or name in scope.constants or name in RESERVED:

@@ -6,15 +6,13 @@ Those of all versions that are in use: what is not here is in none of them.
 from __future__ import annotations
 
 import datetime
-import importlib
 import pathlib
 import queue
 import threading
 from collections.abc import Mapping
-from importlib.util import find_spec
-from types import ModuleType
 
 from rebsync.reverse.libraries import python
+from rebsync.reverse.libraries.module_names import in_python
 from rebsync.reverse.libraries.registry import derived
 
 NODE = "rclpy.node.Node"
@@ -268,39 +266,6 @@ _ALONE = frozenset(
         *(f"{of}.{name}" for of in _TIMES for name in ("to_sec", "to_nsec", "is_zero")),
     }
 )
-_EXCEPTIONS = """
-    ROSException ROSInitException ROSInternalException ROSInterruptException
-    ROSSerializationException ROSTimeMovedBackwardsException TransportException TransportInitError
-    TransportTerminated ServiceException"""
-# What modules have, where that is known.
-_MODULES: Mapping[str, str] = {
-    "rospy": f"""
-        AnyMsg DEBUG Duration ERROR FATAL Header INFO MasterProxy Message Publisher Rate Service
-        ServiceProxy SubscribeListener Subscriber Time Timer WARN delete_param get_caller_id
-        get_master get_name get_namespace get_node_uri get_param get_param_cached get_param_names
-        get_published_topics get_ros_root get_rostime get_time has_param init_node is_shutdown
-        logdebug logdebug_once logdebug_throttle logdebug_throttle_identical logerr logerr_once
-        logerr_throttle logerr_throttle_identical logfatal logfatal_once logfatal_throttle
-        logfatal_throttle_identical loginfo loginfo_once loginfo_throttle
-        loginfo_throttle_identical logout logwarn logwarn_once logwarn_throttle
-        logwarn_throttle_identical myargv on_shutdown parse_rosrpc_uri remap_name resolve_name
-        search_param set_param signal_shutdown sleep spin wait_for_message wait_for_service
-        client core exceptions impl msg msproxy names numpy_msg rostime service services timer
-        topics validators {_EXCEPTIONS}""",
-}
-# Modules of Python's own library of which nodes ask names; submodules are none.
-_OWN_MODULES = frozenset(
-    {
-        *("abc", "bisect", "collections", "contextlib", "copy", "dataclasses", "datetime"),
-        *("decimal", "enum", "functools", "heapq", "itertools", "json", "math", "operator"),
-        *("queue", "random", "re", "statistics", "string", "struct", "sys", "threading"),
-        *("time", "typing", "uuid", "argparse", "array", "base64", "csv", "errno", "fractions"),
-        *("glob", "hashlib", "io", "locale", "logging", "numbers", "os", "pathlib", "pickle"),
-        *("platform", "select", "shutil", "signal", "socket", "subprocess", "tempfile"),
-        *("textwrap", "traceback", "types", "warnings", "zlib"),
-    }
-)
-# Constants of messages are written in capitals; the rest are what generators add.
 _OF_MESSAGES = frozenset(
     {
         *("serialize", "deserialize", "serialize_numpy", "deserialize_numpy"),
@@ -354,51 +319,15 @@ def takes_nothing(name: str) -> bool:
 
 def held_in(name: str) -> str:
     """The class of the value of an attribute, or of a constant; empty if that is not known."""
-    return _HOLDS.get(name) or _CONSTANTS.get(type(_in_python(name)), "")
+    return _HOLDS.get(name) or _CONSTANTS.get(type(in_python(name)), "")
 
 
 def is_float(name: str) -> bool:
     """Whether what Python's own library has under a full name is a number with a point."""
-    return isinstance(_in_python(name), float)
+    return isinstance(in_python(name), float)
 
 
-_MISSING = object()  # what a module of Python's own does not have
 _CONSTANTS = {int: "number", float: "number", bool: "number", str: "str", bytes: "bytes"}
-
-
-@derived
-def _in_python(name: str) -> object:
-    """What Python's own library has here under a full name; None where that is not known."""
-    first, *rest = name.split(".")
-    if first not in _OWN_MODULES or not rest:
-        return None
-    found: object = importlib.import_module(first)
-    for part in rest:
-        inner = getattr(found, part, _MISSING)
-        if inner is _MISSING and _is_module_in(found, part):
-            return None  # of which nothing was asked here
-        found = inner
-        if found is _MISSING:
-            return found
-    return found
-
-
-def _is_module_in(package: object, name: str) -> bool:
-    """Whether a package has a module, or may have it."""
-    if not isinstance(package, ModuleType) or not hasattr(package, "__path__"):
-        return False
-    return find_spec(f"{package.__name__}.{name}") is not None
-
-
-@derived
-def has_name(name: str) -> bool:
-    """Whether there may be a full name; the modules of Python's own have what they have here."""
-    module, _, rest = name.partition(".")
-    known = _MODULES.get(module)
-    if known is None:
-        return _in_python(name) is not _MISSING
-    first = rest.partition(".")[0]
-    return first in known.split() or first.startswith("_")
 
 
 def may_be_of_messages(name: str) -> bool:

@@ -354,10 +354,9 @@ class OutcomeExpressions:
         self.check(target.object, facts)
         self.types.stores(target, facts)
         match target.index:
-            case e.Slice(_, _, None | e.Literal(None | 1)):
-                pass
-            case e.Slice():
-                self.notes.fails(target, "has another number of elements")
+            case e.Slice(_, _, step):
+                if not isinstance(step, e.Literal | None) or (step and step.value not in (None, 1)):
+                    self.notes.fails(target, "has another number of elements")
             case index:
                 self.check(index, facts)
         kinds = self.origins.of(target.object, self.function)

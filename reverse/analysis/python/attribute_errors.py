@@ -32,10 +32,10 @@ from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.walk import Node, walk
 from rebsync.reverse.libraries.attributes import (
     attributes_of,
-    has_name,
     may_be_of_messages,
     takes_nothing,
 )
+from rebsync.reverse.libraries.module_names import has_name
 
 _REFUSED = "gets other arguments than it takes"
 _LACKS = "has no such attribute"

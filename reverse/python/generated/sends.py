@@ -8,6 +8,7 @@ from rebsync import model as m
 from rebsync.names import original
 from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.libraries.tables.runtime import names_in_model
+from rebsync.reverse.models.building import bare, cell
 from rebsync.reverse.python.generated import idioms
 from rebsync.reverse.python.generated.arguments import in_order
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
@@ -123,3 +124,20 @@ def _receiver(reader: ModelExpressionReader, node: Node) -> m.Expression:
     """Who gets a message: what is no name or call stands in parentheses."""
     found = reader.expression(node)
     return m.Paren(found) if isinstance(found, (m.Cast, m.Conditional, m.Choice)) else found
+
+
+def moved(reader: ModelExpressionReader, call: Node, arguments: list[Node]) -> m.Empty:
+    """What the drive is told: along x, and along y."""
+    by = [(found, node) for node in arguments for found in unpacked(reader, node)]
+    if len(by) != 2:
+        raise reader.unread(call, "this moves along x and along y")
+    cells = tuple(_cell(axis, *each) for axis, each in zip("XY", by, strict=True))
+    span = reader.py.span(call)
+    return m.Empty((m.Annotation("Move", cells, span),), span)
+
+
+def _cell(axis: str, by: m.Expression, node: Node) -> m.Expression:
+    found = bare(by)
+    if isinstance(found, m.Unary) and node.type != "unary_operator":
+        return m.Binary("+", m.Name(axis), found)
+    return cell(axis, found)

@@ -39,7 +39,7 @@ from rebsync.reverse.python.generated.py_types import (
     type_of,
     without_parentheses,
 )
-from rebsync.reverse.python.generated.sends import unpacked
+from rebsync.reverse.python.generated.sends import moved
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.py_tree import field, named, text_of
@@ -180,18 +180,8 @@ class Statements(ModelStatementReader):
         if called.removeprefix("self.") in self.expressions.names.inlined and "." in called:
             return inner_functions.inline_method(self, inner, called, arguments)
         if called == "self._drive.move":
-            by = [(e, a) for a in arguments for e in unpacked(self.expressions, a)]
-            if len(by) != 2:
-                raise self.expressions.unread(inner, "this moves along x and along y")
-            cells = tuple(self._cell(axis, *each) for axis, each in zip("XY", by, strict=True))
-            return [m.Empty((m.Annotation("Move", cells, span),), span)]
+            return [moved(self.expressions, inner, arguments)]
         return [callees.evaluated(self.expressions, inner)]
-
-    def _cell(self, axis: str, by: m.Expression, node: Node) -> m.Expression:
-        found = bare(by)
-        if isinstance(found, m.Unary) and node.type != "unary_operator":
-            return m.Binary("+", m.Name(axis), found)
-        return cell(axis, found)
 
     def assigned(self, node: Node) -> list[m.Statement]:
         span, left = self.expressions.py.span(node), field(node, "left")

@@ -151,9 +151,9 @@ class BodyPatch:
             )
             for x, r in aligned(lefts, rights, _similarity)
         ]
-        new = [r for x, r in pairs if x is None]
+        added = [r for x, r in pairs if x is None]
         apart = [x for x, r in pairs if x is not None and r is None]
-        gone = [x for x in apart if any(self.same(x, r) for r in new)]
+        gone = [x for x in apart if any(self.same(x, r) for r in added)]
         last: m.Statement | None = None
         for run in _runs(pairs):
             old, new = run[0]
