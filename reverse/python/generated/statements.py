@@ -11,7 +11,6 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.models.building import bare, cell
 from rebsync.reverse.python.generated import (
     aliases,
     callees,
