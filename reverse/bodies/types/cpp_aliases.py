@@ -54,8 +54,9 @@ def _enumerate(reader: CppStatementReader, enum: Node) -> None:
             value = whole(number, reader.cpp.span(each))
         for spelled in (f"{of}::", "")[: 1 if is_scoped else 2]:
             reader.meaning(f"{spelled}{text_of(part(each, 'name'))}", value)
-    aliases = {**reader.scope.aliases, of: kept if is_int else None}
-    reader.scope = replace(reader.scope, aliases=aliases)
+    if of:
+        aliases = {**reader.scope.aliases, of: kept if is_int else None}
+        reader.scope = replace(reader.scope, aliases=aliases)
 
 
 def _constant_number(reader: CppStatementReader, node: Node) -> int | None:
