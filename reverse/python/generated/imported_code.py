@@ -55,6 +55,8 @@ _SHARED = frozenset(
 )
 _COPYING = frozenset({"dict", "list", "tuple", "set", "len", "sorted"})
 _READING = frozenset({"r", "rb", "rt"})
+# Of a text or container that is written there, methods change nothing that others have.
+_DISPLAYS = (ast.Constant, ast.Dict, ast.List, ast.Set, ast.Tuple)
 _BINDS = (ast.Import, ast.ImportFrom, ast.Pass, ast.Global, ast.Nonlocal)
 
 
@@ -297,7 +299,7 @@ class ImportedCode:
             return self._is_made_plainly(made)
         if name in self._plain or self._is_plain_function(name):
             return True
-        if isinstance(function, ast.Attribute) and isinstance(function.value, ast.Constant):
+        if isinstance(function, ast.Attribute) and isinstance(function.value, _DISPLAYS):
             return True
         return any(
             of_function(Language.PYTHON, full).effect in (Effect.NONE, Effect.READS)
