@@ -44,7 +44,9 @@ IN_SETUP = PLAIN | {
 }
 # What launch files are made of: they describe what is started, and run before it.
 _LAUNCH = ("launch.", "launch_ros.", "ament_index_python.", "nav2_common.launch.", "xacro.")
-_DESCRIBES = frozenset({"add_action", "add_entity", "append", "extend", "perform"})
+_DESCRIBES = frozenset(
+    {"add_action", "add_entity", "append", "extend", "get", "items", "keys", "perform", "values"}
+)
 _Function: TypeAlias = "ast.FunctionDef | ast.AsyncFunctionDef"
 _CLASS_HOOKS = frozenset({"__init_subclass__", "__set_name__"})
 _MAKING = frozenset({"__init__", "__new__", "__post_init__", "__call__"})
