@@ -93,7 +93,8 @@ class PythonPart:
             is_own = made in names and carry(made, NO_PYTHON_CLASSES) == called
             module = self.scripts.get(program)
             if module is None:
-                runs = not self.scripts and program in (path, path.removesuffix(".py"))
+                # that a program of this name is not installed is told by itself
+                runs = program == path.removesuffix(".py") or (not self.scripts and program == path)
             else:
                 runs = is_module(scope.py.source.path, module)
             if runs and is_own:

@@ -11,8 +11,6 @@ from posixpath import dirname
 
 from rebsync.diagnostics import Findings
 from rebsync.files import read_source
-from rebsync.reverse.build.dependencies import is_of_libraries
-from rebsync.reverse.syntax.py_module import imported_modules
 from rebsync.roundtrip.package.record import Record
 from rebsync.roundtrip.package.state import PackageState
 from rebsync.roundtrip.verdict.missing_definitions import finding
@@ -29,6 +27,9 @@ def shadowing(record: Record, now: PackageState) -> Iterator[Findings]:
     new = [n for n in now.changed if n not in record.files and n.endswith(_SUFFIX) and n in paths]
     if not new:
         return
+    from rebsync.reverse.build.dependencies import is_of_libraries
+    from rebsync.reverse.syntax.py_module import imported_modules
+
     code = [n for n in record.files if n in paths and _is_python(n)]
     roots = {dirname(n) for n in code if not n.endswith(_SUFFIX)}
     roots |= {dirname(dirname(n)) for n in code if n.endswith(_INIT)}
