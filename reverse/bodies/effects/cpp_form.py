@@ -32,6 +32,7 @@ from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Kind, Language
+from rebsync.reverse.scaffold.stand_ins import STAND_IN
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside
@@ -117,8 +118,13 @@ class CppForm:
 
     @cached_property
     def has_times(self) -> bool:
-        """Whether files other than known ones may use times of a client library, by their words."""
-        return any(_TIMES.search(cpp.data) for cpp in self._code.files if cpp not in self._known)
+        """Whether files other than known ones may use times of a client library, by their words.
+
+        Stand-ins are programs of their own, which nothing else calls.
+        """
+        files = (cpp for cpp in self._code.files if cpp not in self._known)
+        asked = (cpp for cpp in files if not STAND_IN.fullmatch(cpp.source.path))
+        return any(_TIMES.search(cpp.data) for cpp in asked)
 
     @cached_property
     def _of_known(self) -> frozenset[str]:
