@@ -24,11 +24,9 @@ _STATEMENTS = (
 def check(reader: CppStatementReader, node: Node) -> None:
     """Raises `Unread` where a statement, but for those in it, may throw so."""
     form, cpp = reader.scope.form, reader.cpp
-    if form is None or not (reader.scope.open or form.has_times):
+    if form is None or not reader.scope.open:
         return
     found = form.unsaid(cpp, node)
-    if not reader.scope.open:
-        found = [p for p in found if p.why != NOTHING_THERE]  # which is looked for in all functions
     nested = [inner for inner in inside(node, *_STATEMENTS) if inner != node] if found else []
     spans = [cpp.span(inner) for inner in nested]
     for problem in found:

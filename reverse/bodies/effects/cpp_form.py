@@ -32,7 +32,6 @@ from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Kind, Language
-from rebsync.reverse.scaffold.stand_ins import STAND_IN
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside
@@ -40,8 +39,6 @@ from rebsync.source import NOWHERE, Span
 
 # Words without which nothing locks, or waits for who does.
 _LOCKS = re.compile(rb"(?<![cCbB])lock|\bsem_\w*wait")
-# Words without which no code makes a time of a client library, or gets one.
-_TIMES = re.compile(rb"(?:Time|Duration|Rate|\bstamp_?|fromSec|\bchrono)\b|\bnow\s*\(")
 _ACTING = ("call_expression", "assignment_expression", "update_expression", "new_expression")
 _UNSEEN = UNSAID | {NOTHING_THERE, NO_RESULT, SHIFTS_TOO_FAR}
 # Headers of messages of ROS 1, which are named as these are.
@@ -115,16 +112,6 @@ class CppForm:
     def _has_locks(self) -> bool:
         """Whether files other than known ones may lock something, by their words."""
         return any(_LOCKS.search(cpp.data) for cpp in self._code.files if cpp not in self._known)
-
-    @cached_property
-    def has_times(self) -> bool:
-        """Whether files other than known ones may use times of a client library, by their words.
-
-        Stand-ins are programs of their own, which nothing else calls.
-        """
-        files = (cpp for cpp in self._code.files if cpp not in self._known)
-        asked = (cpp for cpp in files if not STAND_IN.fullmatch(cpp.source.path))
-        return any(_TIMES.search(cpp.data) for cpp in asked)
 
     @cached_property
     def _of_known(self) -> frozenset[str]:
