@@ -57,15 +57,3 @@ def _bound(node: ast.AST) -> frozenset[str]:
         case _:
             inner = frozenset()
     return inner.union(*map(_bound, ast.iter_child_nodes(node)))
-
-
-def imported_modules(text: str) -> frozenset[str]:
-    """The modules that a module imports by their full names, anywhere in it."""
-    found: set[str] = set()
-    for node in ast.walk(module_of(text) or ast.Module([], [])):
-        match node:
-            case ast.Import(names):
-                found |= {each.name for each in names}
-            case ast.ImportFrom(str(module), level=0):
-                found.add(module)
-    return frozenset(found)

@@ -27,13 +27,15 @@ def shadowing(record: Record, now: PackageState) -> Iterator[Findings]:
     new = [n for n in now.changed if n not in record.files and n.endswith(_SUFFIX) and n in paths]
     if not new:
         return
+    from rebsync.reverse.build.built_python import imported_by
     from rebsync.reverse.build.dependencies import is_of_libraries
-    from rebsync.reverse.syntax.py_module import imported_modules
+    from rebsync.reverse.syntax.py_module import module_of
 
     code = [n for n in record.files if n in paths and _is_python(n)]
     roots = {dirname(n) for n in code if not n.endswith(_SUFFIX)}
     roots |= {dirname(dirname(n)) for n in code if n.endswith(_INIT)}
-    modules = {m for n in code for m in imported_modules(read_source(paths[n]).text)}
+    trees = (module_of(read_source(paths[n]).text) for n in code)
+    modules = {name for tree in trees if tree is not None for name in imported_by(tree)}
     imported = {module.partition(".")[0] for module in modules}
     of_messages = {
         f"{r}/{m}".lstrip("/").replace(".", "/")
